@@ -1,0 +1,1 @@
+//! Maps and search trees as SVG and DOT.

@@ -1,0 +1,1 @@
+//! SE(2), pose graphs and least squares.

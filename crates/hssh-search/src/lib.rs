@@ -1,0 +1,1 @@
+//! The tree of hypotheses and the searches through it.

@@ -1,0 +1,1 @@
+//! Simulated worlds and routes through them; knows nothing of the mapper.

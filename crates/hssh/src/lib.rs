@@ -1,0 +1,1 @@
+//! The hybrid spatial semantic hierarchy: the library of everything, and the program.

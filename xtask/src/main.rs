@@ -1,0 +1,2 @@
+//! Scripted experiments, benchmarks and checks.
+fn main() {}
