@@ -60,3 +60,212 @@ pub struct Exploration {
     start: StarType,
     travels: Vec<Travel>,
 }
+
+/// Why a sequence of travels is no exploration.
+#[derive(Clone, PartialEq, Debug, thiserror::Error)]
+pub enum ExplorationError {
+    /// Two star types share a name.
+    #[error("two star types are both named `{0}`")]
+    RepeatedStarName(String),
+    /// A star type has another number of bearings than ends.
+    #[error("star `{name}` has {ends} ends but {bearings} bearings")]
+    BearingCount {
+        /// The star type's name.
+        name: String,
+        /// How many oriented local paths it has.
+        ends: usize,
+        /// How many bearings were given.
+        bearings: usize,
+    },
+    /// A star type index past the end of the list.
+    #[error("star type {0} does not exist: there are {1}")]
+    NoSuchStarType(u32, usize),
+    /// A travel is impossible.
+    #[error("travel {travel}: {problem}")]
+    Travel {
+        /// The travel, counted from 1.
+        travel: usize,
+        /// What is wrong with it.
+        problem: TravelError,
+    },
+}
+
+/// Why a travel cannot have happened as written.
+#[derive(Clone, PartialEq, Debug, thiserror::Error)]
+pub enum TravelError {
+    /// The end does not exist in the star.
+    #[error("star `{star}` has no end number {olp}; it has {degree}")]
+    NoSuchEnd {
+        /// The star type's name.
+        star: String,
+        /// The index asked for.
+        olp: u32,
+        /// How many ends there are.
+        degree: u32,
+    },
+    /// A closed end was used to leave or to enter.
+    #[error(
+        "end `{olp}` of star `{star}` is closed, so the robot cannot {verb} by it; travelable are {open}"
+    )]
+    ClosedEnd {
+        /// The star type's name.
+        star: String,
+        /// The closed end's name.
+        olp: String,
+        /// "leave" or "enter".
+        verb: &'static str,
+        /// The names of the travelable ends.
+        open: String,
+    },
+    /// The odometry is no measurement.
+    #[error(transparent)]
+    Odometry(#[from] OdometryError),
+}
+
+/// Why numbers are no relative pose with covariance.
+#[derive(Clone, PartialEq, Debug, thiserror::Error)]
+pub enum OdometryError {
+    /// NaN or infinite.
+    #[error("odometry contains {0}, which is no finite number")]
+    NotFinite(f64),
+    /// C ≠ Cᵀ.
+    #[error(
+        "the covariance is not symmetric: row {row} column {column} is {a}, but row {column} column {row} is {b}"
+    )]
+    NotSymmetric {
+        /// Row, from 1.
+        row: usize,
+        /// Column, from 1.
+        column: usize,
+        /// The entry.
+        a: f64,
+        /// Its mirror image.
+        b: f64,
+    },
+    /// An eigenvalue is zero or negative.
+    #[error(
+        "the covariance is not positive definite: its smallest eigenvalue is {0}, but every direction needs a positive variance"
+    )]
+    NotPositiveDefinite(f64),
+}
+
+impl Odometry {
+    /// Checks that all numbers are finite and that the covariance is symmetric positive definite.
+    ///
+    /// # Errors
+    /// If it is not.
+    pub fn check(&self) -> Result<(), OdometryError> {
+        let flat = [self.x, self.y, self.theta];
+        let entries = flat.iter().chain(self.covariance.iter().flatten());
+        if let Some(&bad) = entries.into_iter().find(|value| !value.is_finite()) {
+            return Err(OdometryError::NotFinite(bad));
+        }
+        let c = &self.covariance;
+        for (row, column) in [(0, 1), (0, 2), (1, 2)] {
+            let (a, b) = (c[row][column], c[column][row]);
+            if (a - b).abs() > 1e-9 * a.abs().max(b.abs()) {
+                return Err(OdometryError::NotSymmetric { row: row + 1, column: column + 1, a, b });
+            }
+        }
+        let matrix = nalgebra::Matrix3::from_fn(|row, column| c[row][column]);
+        if matrix.cholesky().is_none() {
+            return Err(OdometryError::NotPositiveDefinite(matrix.symmetric_eigenvalues().min()));
+        }
+        Ok(())
+    }
+}
+
+impl Exploration {
+    /// An exploration from its parts.
+    ///
+    /// # Errors
+    /// If a star name repeats, a star type or an end does not exist, a travel uses a closed end,
+    /// or an odometry is no measurement.
+    pub fn new(
+        star_types: Vec<NamedStar>,
+        start: StarType,
+        travels: Vec<Travel>,
+    ) -> Result<Self, ExplorationError> {
+        for (index, named) in star_types.iter().enumerate() {
+            if star_types[..index].iter().any(|other| other.name == named.name) {
+                return Err(ExplorationError::RepeatedStarName(named.name.clone()));
+            }
+            let (ends, bearings) = (named.star.ends().len(), named.bearings.len());
+            if ends != bearings {
+                return Err(ExplorationError::BearingCount { name: named.name.clone(), ends, bearings });
+            }
+        }
+        let exploration = Exploration { star_types, start, travels };
+        exploration.named_star(start)?;
+        let mut here = start;
+        for (index, travel) in exploration.travels.iter().enumerate() {
+            exploration.named_star(travel.star)?;
+            exploration
+                .check_travel(here, travel)
+                .map_err(|problem| ExplorationError::Travel { travel: index + 1, problem })?;
+            here = travel.star;
+        }
+        Ok(exploration)
+    }
+
+    fn named_star(&self, star_type: StarType) -> Result<&NamedStar, ExplorationError> {
+        self.star_types
+            .get(star_type.index())
+            .ok_or(ExplorationError::NoSuchStarType(star_type.0, self.star_types.len()))
+    }
+
+    fn check_travel(&self, from: StarType, travel: &Travel) -> Result<(), TravelError> {
+        usable(&self.star_types[from.index()], travel.exit, "leave")?;
+        usable(&self.star_types[travel.star.index()], travel.entry, "enter")?;
+        Ok(travel.odometry.as_ref().map_or(Ok(()), Odometry::check)?)
+    }
+
+    /// The star types, in the order in which [`StarType`] counts them.
+    #[must_use]
+    pub fn star_types(&self) -> &[NamedStar] {
+        &self.star_types
+    }
+
+    /// A star type.
+    #[must_use]
+    pub fn star(&self, star_type: StarType) -> &Star {
+        &self.star_types[star_type.index()].star
+    }
+
+    /// The star type seen at the very beginning.
+    #[must_use]
+    pub fn start(&self) -> StarType {
+        self.start
+    }
+
+    /// The travels, in order.
+    #[must_use]
+    pub fn travels(&self) -> &[Travel] {
+        &self.travels
+    }
+
+    /// The star types seen, in order: one more than there are travels.
+    pub fn visits(&self) -> impl Iterator<Item = StarType> + '_ {
+        std::iter::once(self.start).chain(self.travels.iter().map(|travel| travel.star))
+    }
+
+    /// The beginning of this exploration: its first `travels` travels.
+    #[must_use]
+    pub fn prefix(&self, travels: usize) -> Self {
+        let travels = self.travels[..travels.min(self.travels.len())].to_vec();
+        Exploration { travels, ..self.clone() }
+    }
+}
+
+fn usable(named: &NamedStar, olp: Olp, verb: &'static str) -> Result<(), TravelError> {
+    let star = &named.star;
+    if olp.0 >= star.degree() {
+        return Err(TravelError::NoSuchEnd { star: named.name.clone(), olp: olp.0, degree: star.degree() });
+    }
+    if star.is_travelable(olp) {
+        return Ok(());
+    }
+    let open = star.gateways().map(|olp| star.name(olp).to_string()).collect::<Vec<_>>();
+    let open = if open.is_empty() { "none".to_owned() } else { open.join(", ") };
+    Err(TravelError::ClosedEnd { star: named.name.clone(), olp: star.name(olp).to_string(), verb, open })
+}

@@ -2,4 +2,6 @@
 
 mod exploration;
 
-pub use exploration::{Exploration, NamedStar, Odometry, StarType, Travel};
+pub use exploration::{
+    Exploration, ExplorationError, NamedStar, Odometry, OdometryError, StarType, Travel, TravelError,
+};
