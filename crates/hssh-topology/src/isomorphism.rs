@@ -30,13 +30,18 @@ impl Isomorphism {
         if to.degree() != degree {
             return None;
         }
-        let phi = Isomorphism { rotation: (image.0 + degree - olp.0) % degree, degree };
+        let phi = Isomorphism::rotating(olp, image, degree);
         let keeps = |x: Olp| {
             let (end, image) = (&from.ends()[x.index()], &to.ends()[phi.apply(x).index()]);
             (end.travel, &end.label) == (image.travel, &image.label) // (ii)
                 && phi.apply(from.opposite(x)) == to.opposite(phi.apply(x)) // (iii)
         };
         from.olps().all(keeps).then_some(phi)
+    }
+
+    /// The rotation that takes `olp` to `image`, known from elsewhere to be an isomorphism.
+    pub(crate) fn rotating(olp: Olp, image: Olp, degree: u32) -> Self {
+        Isomorphism { rotation: (image.0 + degree - olp.0) % degree, degree }
     }
 
     /// All isomorphisms from one star to another, by the image of the first oriented local path.

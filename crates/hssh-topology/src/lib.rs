@@ -4,8 +4,22 @@
 //! and the recursive step that turns one hypothesis about an exploration into its successors.
 //! No coordinates, no input or output.
 
+mod axioms;
+mod catalog;
+mod embedding;
+mod hypothesis;
 mod isomorphism;
+mod map;
+mod preference;
 mod star;
 
+pub use axioms::{Axiom, Axioms, Removals};
+pub use catalog::{StarCatalog, StarId};
+pub use embedding::{Dart, EmbeddedGraph, EmbeddingError, FaceLabel, Faces, Link, Vertex};
+pub use hypothesis::{Derivation, Extension, Hypothesis, Observation, Position};
 pub use isomorphism::Isomorphism;
+pub use map::{
+    BoundaryRelation, Course, Direction, MapOlp, PathId, PathSides, PlaceId, Region, TopologicalMap,
+};
+pub use preference::{GenusRank, Measure, Preference, Rank};
 pub use star::{Olp, OlpName, Sign, Star, StarEnd, StarError, Travel};

@@ -1,0 +1,453 @@
+//! Embedded graphs: rotation systems over darts, with faces and genus (section 3.2).
+
+mod components;
+mod faces;
+mod link;
+#[cfg(test)]
+mod tests;
+
+use components::Components;
+pub use faces::Faces;
+pub use link::Link;
+
+use serde::{Deserialize, Serialize};
+
+/// A vertex of an [`EmbeddedGraph`].
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug, Serialize, Deserialize)]
+#[serde(transparent)]
+pub struct Vertex(pub u32);
+
+/// A directed edge leaving its source: an element of T(E), or a pending edge.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug, Serialize, Deserialize)]
+#[serde(transparent)]
+pub struct Dart(pub u32);
+
+/// A label that two pending edges share if and only if they lie in the same face.
+///
+/// Labels are not consecutive, and linking may change them.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug, Serialize, Deserialize)]
+#[serde(transparent)]
+pub struct FaceLabel(pub u32);
+
+impl Vertex {
+    /// The vertex as an index.
+    #[must_use]
+    pub fn index(self) -> usize {
+        self.0 as usize
+    }
+}
+
+impl Dart {
+    /// The dart as an index.
+    #[must_use]
+    pub fn index(self) -> usize {
+        self.0 as usize
+    }
+}
+
+/// A graph with a clockwise order of the edges around each vertex; parallel edges and loops allowed.
+///
+/// The darts of a vertex are numbered consecutively in clockwise order. A dart is either linked to
+/// another one, its [`rev`](Self::rev), and the two are the directed edges e_v and e_w of T(G); or
+/// it is *pending*: it holds a position in the circular order but no edge is there yet.
+///
+/// [`link`](Self::link) turns two pending edges into an edge. The number of faces, the genus and
+/// the face that each pending edge lies in are carried along, not recounted.
+///
+/// ```
+/// use hssh_topology::{Dart, EmbeddedGraph};
+///
+/// let mut graph = EmbeddedGraph::new();
+/// graph.add_vertex(4); // one vertex, four pending edges: darts 0, 1, 2, 3 clockwise
+/// graph.link(Dart(0), Dart(2)); // a loop, which parts the other two
+/// assert_ne!(graph.face_of_pending(Dart(1)), graph.face_of_pending(Dart(3)));
+/// graph.link(Dart(1), Dart(3)); // crosses it
+/// assert_eq!((graph.face_count(), graph.genus()), (1, 1)); // the torus
+/// ```
+#[derive(Clone, Debug, Default)]
+pub struct EmbeddedGraph {
+    /// The first dart of each vertex, and one more entry that ends the last vertex.
+    first: Vec<u32>,
+    /// How many darts of each vertex are linked.
+    degree: Vec<u32>,
+    darts: Vec<DartRecord>,
+    components: Components,
+    counts: Counts,
+    /// The first and the last pending edge in ascending order.
+    pending_ends: Option<(Dart, Dart)>,
+}
+
+/// Everything that is known of one dart.
+#[derive(Clone, Copy, Debug)]
+struct DartRecord {
+    source: Vertex,
+    /// The dart in the other direction, or the dart itself while it is pending.
+    rev: Dart,
+    /// The face that a pending edge lies in; a linked dart keeps the label it had.
+    face: FaceLabel,
+    /// The neighbors among the pending edges of the face, in the order in which a walk along the
+    /// face meets them: counterclockwise around each vertex. A linked dart keeps those it had.
+    in_face: Neighbors,
+    /// The neighbors among all pending edges in ascending order, ending in the dart itself.
+    in_order: Neighbors,
+}
+
+/// The two neighbors in a doubly linked list.
+#[derive(Clone, Copy, Debug)]
+struct Neighbors {
+    before: Dart,
+    after: Dart,
+}
+
+/// The terms of the Euler–Poincaré formula.
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
+struct Counts {
+    edges: u32,
+    components: u32,
+    isolated: u32,
+    /// f + |I|: the plane around an isolated vertex counts as one face here, so that linking treats
+    /// all vertices alike.
+    faces_and_isolated: u32,
+    pending: u32,
+    next_face: u32,
+}
+
+/// Why a list of links is no embedded graph.
+#[derive(Clone, PartialEq, Eq, Debug, thiserror::Error)]
+pub enum EmbeddingError {
+    /// A link names a dart that no vertex has.
+    #[error("dart {0} does not exist: the vertices have {1} darts together")]
+    NoSuchDart(u32, u32),
+    /// A dart is linked twice, or to itself.
+    #[error("dart {0} is linked twice or to itself: a dart has one other end")]
+    LinkedTwice(u32),
+}
+
+impl EmbeddedGraph {
+    /// The empty graph.
+    #[must_use]
+    pub fn new() -> Self {
+        EmbeddedGraph { first: vec![0], ..EmbeddedGraph::default() }
+    }
+
+    /// A graph from the degrees of its vertices and the pairs of darts that form its edges, in
+    /// linear time. Darts are numbered vertex by vertex, clockwise. Darts in no link are pending.
+    ///
+    /// # Errors
+    /// If a dart does not exist or is used twice.
+    pub fn from_links(
+        degrees: impl IntoIterator<Item = u32>,
+        links: impl IntoIterator<Item = (Dart, Dart)>,
+    ) -> Result<Self, EmbeddingError> {
+        let mut graph = EmbeddedGraph::new();
+        for degree in degrees {
+            graph.push_vertex(degree);
+        }
+        for (a, b) in links {
+            for dart in [a, b] {
+                if dart.index() >= graph.darts.len() {
+                    return Err(EmbeddingError::NoSuchDart(dart.0, graph.darts.len() as u32));
+                }
+                if a == b || !graph.is_pending(dart) {
+                    return Err(EmbeddingError::LinkedTwice(dart.0));
+                }
+            }
+            graph.join(a, b);
+        }
+        graph.recount();
+        Ok(graph)
+    }
+
+    /// Adds a vertex with that many pending edges, unconnected to all others.
+    pub fn add_vertex(&mut self, degree: u32) -> Vertex {
+        let vertex = self.push_vertex(degree);
+        let face = self.fresh_face();
+        let (first, end) = self.span(vertex);
+        for dart in (first..end).map(Dart) {
+            let in_face = Neighbors { before: self.succ(dart), after: self.pred(dart) };
+            let record = &mut self.darts[dart.index()];
+            (record.face, record.in_face) = (face, in_face);
+            self.append_to_order(dart);
+        }
+        self.components.push();
+        self.counts.components += 1;
+        self.counts.isolated += 1;
+        self.counts.faces_and_isolated += 1;
+        self.counts.pending += degree;
+        vertex
+    }
+
+    /// Takes back the last [`add_vertex`](Self::add_vertex).
+    ///
+    /// # Panics
+    /// If there is no vertex, or if the last one has an edge.
+    pub fn remove_last_vertex(&mut self) {
+        let vertex = Vertex(self.vertex_count().checked_sub(1).expect("there is a vertex to remove"));
+        assert!(self.is_isolated(vertex), "a vertex that is removed has no edge");
+        let (first, end) = self.span(vertex);
+        for dart in (first..end).rev().map(Dart) {
+            self.leave_order(dart);
+        }
+        self.darts.truncate(first as usize);
+        self.first.pop();
+        self.degree.pop();
+        self.components.pop();
+        self.counts.components -= 1;
+        self.counts.isolated -= 1;
+        self.counts.faces_and_isolated -= 1;
+        self.counts.pending -= end - first;
+        self.counts.next_face -= 1;
+    }
+
+    fn push_vertex(&mut self, degree: u32) -> Vertex {
+        let vertex = Vertex(self.vertex_count());
+        let first = self.darts.len() as u32;
+        self.darts.extend((first..first + degree).map(|dart| {
+            let alone = Neighbors { before: Dart(dart), after: Dart(dart) };
+            DartRecord {
+                source: vertex,
+                rev: Dart(dart),
+                face: FaceLabel(0),
+                in_face: alone,
+                in_order: alone,
+            }
+        }));
+        self.first.push(first + degree);
+        self.degree.push(0);
+        vertex
+    }
+
+    /// Makes two pending darts each other's reverse.
+    fn join(&mut self, a: Dart, b: Dart) {
+        for (dart, rev) in [(a, b), (b, a)] {
+            let record = &mut self.darts[dart.index()];
+            record.rev = rev;
+            self.degree[record.source.index()] += 1;
+        }
+    }
+
+    fn fresh_face(&mut self) -> FaceLabel {
+        self.counts.next_face += 1;
+        FaceLabel(self.counts.next_face - 1)
+    }
+
+    /// The darts of a vertex, as a range of numbers.
+    fn span(&self, vertex: Vertex) -> (u32, u32) {
+        (self.first[vertex.index()], self.first[vertex.index() + 1])
+    }
+
+    /// |V|.
+    #[must_use]
+    pub fn vertex_count(&self) -> u32 {
+        self.first.len() as u32 - 1
+    }
+
+    /// |E|, without pending edges.
+    #[must_use]
+    pub fn edge_count(&self) -> u32 {
+        self.counts.edges
+    }
+
+    /// c, the number of connected components.
+    #[must_use]
+    pub fn component_count(&self) -> u32 {
+        self.counts.components
+    }
+
+    /// f, the number of faces (Definition 3.1). An isolated vertex has none.
+    #[must_use]
+    pub fn face_count(&self) -> u32 {
+        self.counts.faces_and_isolated - self.counts.isolated
+    }
+
+    /// The number of pending edges.
+    #[must_use]
+    pub fn pending_count(&self) -> u32 {
+        self.counts.pending
+    }
+
+    /// The least number of handles of a surface that the graph can be drawn on without crossings:
+    /// (|E| + 2c − |V| − |I| − f) / 2.
+    #[must_use]
+    pub fn genus(&self) -> u32 {
+        let counts = self.counts;
+        (counts.edges + 2 * counts.components - self.vertex_count() - counts.faces_and_isolated) / 2
+    }
+
+    /// Whether the genus is 0.
+    #[must_use]
+    pub fn is_planar(&self) -> bool {
+        self.genus() == 0
+    }
+
+    /// The vertices, in order of creation.
+    pub fn vertices(&self) -> impl ExactSizeIterator<Item = Vertex> + use<> {
+        (0..self.vertex_count()).map(Vertex)
+    }
+
+    /// The vertices without edges: I.
+    pub fn isolated_vertices(&self) -> impl Iterator<Item = Vertex> + '_ {
+        self.vertices().filter(|&vertex| self.is_isolated(vertex))
+    }
+
+    /// Whether no edge meets the vertex; pending edges are none.
+    #[must_use]
+    pub fn is_isolated(&self, vertex: Vertex) -> bool {
+        self.degree[vertex.index()] == 0
+    }
+
+    /// The darts and pending edges of a vertex, clockwise.
+    pub fn darts_of(&self, vertex: Vertex) -> impl ExactSizeIterator<Item = Dart> + use<> {
+        let (first, end) = self.span(vertex);
+        DartRange { next: first, end }
+    }
+
+    /// The number of darts, pending edges among them.
+    #[must_use]
+    pub fn dart_count(&self) -> u32 {
+        self.darts.len() as u32
+    }
+
+    /// The vertex that a dart leaves.
+    #[must_use]
+    pub fn source(&self, dart: Dart) -> Vertex {
+        self.darts[dart.index()].source
+    }
+
+    /// The vertex that a dart leads to, `None` for a pending edge.
+    #[must_use]
+    pub fn target(&self, dart: Dart) -> Option<Vertex> {
+        self.rev(dart).map(|rev| self.source(rev))
+    }
+
+    /// The same edge in the other direction, `None` for a pending edge.
+    #[must_use]
+    pub fn rev(&self, dart: Dart) -> Option<Dart> {
+        let rev = self.darts[dart.index()].rev;
+        (rev != dart).then_some(rev)
+    }
+
+    /// Whether no edge is there yet.
+    #[must_use]
+    pub fn is_pending(&self, dart: Dart) -> bool {
+        self.darts[dart.index()].rev == dart
+    }
+
+    /// The next dart or pending edge clockwise around the source.
+    #[must_use]
+    pub fn succ(&self, dart: Dart) -> Dart {
+        let (first, end) = self.span(self.source(dart));
+        Dart(if dart.0 + 1 == end { first } else { dart.0 + 1 })
+    }
+
+    /// The next dart or pending edge counterclockwise around the source.
+    #[must_use]
+    pub fn pred(&self, dart: Dart) -> Dart {
+        let (first, end) = self.span(self.source(dart));
+        Dart(if dart.0 == first { end - 1 } else { dart.0 - 1 })
+    }
+
+    /// The face that a pending edge lies in (Definition 3.2).
+    ///
+    /// # Panics
+    /// If the dart is not pending.
+    #[must_use]
+    pub fn face_of_pending(&self, dart: Dart) -> FaceLabel {
+        assert!(self.is_pending(dart), "an edge has a face on each side, a pending edge has one");
+        self.darts[dart.index()].face
+    }
+
+    /// All pending edges, ascending.
+    pub fn pending_edges(&self) -> impl Iterator<Item = Dart> + '_ {
+        let mut next = self.pending_ends.map(|(first, _)| first);
+        std::iter::from_fn(move || {
+            let dart = next?;
+            let after = self.darts[dart.index()].in_order.after;
+            next = (after != dart).then_some(after);
+            Some(dart)
+        })
+    }
+
+    /// The pending edges of the face that `dart` lies in, from `dart` on, as a walk along the face
+    /// meets them.
+    pub fn pending_edges_of_face(&self, dart: Dart) -> impl Iterator<Item = Dart> + '_ {
+        debug_assert!(self.is_pending(dart));
+        let mut next = Some(dart);
+        std::iter::from_fn(move || {
+            let current = next?;
+            let after = self.darts[current.index()].in_face.after;
+            next = (after != dart).then_some(after);
+            Some(current)
+        })
+    }
+
+    /// Whether two vertices lie in the same component.
+    #[must_use]
+    pub fn are_connected(&self, a: Vertex, b: Vertex) -> bool {
+        self.components.root(a.0) == self.components.root(b.0)
+    }
+
+    fn append_to_order(&mut self, dart: Dart) {
+        let (first, before) = self.pending_ends.map_or((dart, dart), |(first, last)| (first, last));
+        self.darts[before.index()].in_order.after = dart;
+        self.darts[dart.index()].in_order = Neighbors { before, after: dart };
+        self.pending_ends = Some((first, dart));
+    }
+
+    /// Takes a dart out of the ascending list of pending edges.
+    fn leave_order(&mut self, dart: Dart) {
+        let Neighbors { before, after } = self.darts[dart.index()].in_order;
+        let Some((first, last)) = self.pending_ends else { return };
+        let (is_first, is_last) = (dart == first, dart == last);
+        if !is_last {
+            self.darts[after.index()].in_order.before = if is_first { after } else { before };
+        }
+        if !is_first {
+            self.darts[before.index()].in_order.after = if is_last { before } else { after };
+        }
+        self.pending_ends = match (is_first, is_last) {
+            (true, true) => None,
+            (true, false) => Some((after, last)),
+            (false, true) => Some((first, before)),
+            (false, false) => Some((first, last)),
+        };
+    }
+
+    /// Puts a dart back where it was when it left; the last one to leave comes back first.
+    fn rejoin_order(&mut self, dart: Dart) {
+        let Neighbors { before, after } = self.darts[dart.index()].in_order;
+        let (was_first, was_last) = (before == dart, after == dart);
+        if !was_last {
+            self.darts[after.index()].in_order.before = dart;
+        }
+        if !was_first {
+            self.darts[before.index()].in_order.after = dart;
+        }
+        let (first, last) = self.pending_ends.unwrap_or((dart, dart));
+        self.pending_ends = Some((if was_first { dart } else { first }, if was_last { dart } else { last }));
+    }
+}
+
+/// The darts of one vertex.
+struct DartRange {
+    next: u32,
+    end: u32,
+}
+
+impl Iterator for DartRange {
+    type Item = Dart;
+
+    fn next(&mut self) -> Option<Dart> {
+        (self.next < self.end).then(|| {
+            self.next += 1;
+            Dart(self.next - 1)
+        })
+    }
+
+    fn size_hint(&self) -> (usize, Option<usize>) {
+        let left = (self.end - self.next) as usize;
+        (left, Some(left))
+    }
+}
+
+impl ExactSizeIterator for DartRange {}
