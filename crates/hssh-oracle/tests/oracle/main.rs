@@ -1,0 +1,8 @@
+//! Who checks the checker: the oracle against published counts, laws and maps small enough to draw.
+
+#![allow(clippy::unwrap_used, reason = "in tests a failed unwrap is the failed assertion")]
+
+mod grid;
+mod laws;
+mod published_counts;
+mod small_maps;

@@ -1,0 +1,167 @@
+//! Exhaustive counting: all that breadth-first counts, in memory that does not grow with the nodes.
+
+use std::ops::ControlFlow;
+use std::sync::Arc;
+use std::time::Instant;
+
+use hssh_topology::{Axioms, Hypothesis, Preference, Removals};
+
+use crate::breadth_first::BreadthFirst;
+use crate::crew::Crew;
+use crate::depth_first::{Visitor, depth_first};
+use crate::experience::Experience;
+use crate::limits::{Limits, Monitor, StopReason, Watch};
+use crate::mapper::ThreadsError;
+use crate::report::{FinalCounts, LevelCounts, Report, Tally};
+use crate::tree::{NodeId, Tree};
+
+/// The tree is cut below the first level with that many nodes, and each branch counted by itself.
+const BRANCHES: u32 = 512;
+
+/// Nodes between two looks at the limits.
+const LOOK: u64 = 1 << 14;
+
+/// Goes through all hypotheses of an experience and counts them, keeping none.
+///
+/// A limit or an interruption ends the count early; the report then covers the branches that were
+/// counted to their end, in the order of the tree, and is the same for any number of threads if it
+/// was the limit on nodes.
+///
+/// # Errors
+/// If the operating system gives no threads.
+pub fn count(
+    experience: &Experience,
+    axioms: &Axioms,
+    preference: Preference,
+    limits: Limits,
+    threads: usize,
+    monitor: &Arc<Monitor>,
+) -> Result<Report, ThreadsError> {
+    let started = Instant::now();
+    let crew = Crew::new(threads)?;
+    let watch = Watch::start(limits, monitor);
+    let travels = experience.observations.len();
+
+    let mut tree = Tree::new();
+    let mut top = BreadthFirst::default();
+    let mut tally = Tally::new();
+    let mut stop = None;
+    while stop.is_none() && top.depth < travels && top.fringe.len() < BRANCHES as usize {
+        stop = top.grow(&mut tree, (experience, axioms), (&crew, &watch), &mut tally).err();
+    }
+    tally.levels.resize(travels + 1, LevelCounts::default());
+    let mut total =
+        Counting { levels: tally.levels, removals: tally.removals, ..Counting::new(preference, &watch) };
+
+    let branches: Vec<NodeId> = top.fringe.clone().map(NodeId).collect();
+    for together in branches.chunks(4 * crew.threads()) {
+        if stop.is_some() {
+            break;
+        }
+        let counted = crew.map(together, experience, |cursor, &node| {
+            let mut counting = Counting::new(preference, &watch);
+            let hypothesis = cursor.go_to(node, &tree, experience);
+            let removals = depth_first(hypothesis, top.depth, experience, axioms, &mut counting);
+            counting.removals = removals;
+            counting
+        });
+        for branch in counted {
+            stop = stop.or(branch.stop).or_else(|| watch.excess(total.nodes() + branch.nodes(), 0));
+            if stop.is_none() {
+                total.merge(&branch);
+            }
+        }
+        if stop.is_some() {
+            crew.recall();
+        }
+    }
+    let nodes = total.nodes();
+    let sum = |of: fn(&LevelCounts) -> u64| total.levels.iter().map(of).sum::<u64>();
+    let (maps, refuted) = (sum(|level| level.maps), sum(|level| level.refuted));
+    Ok(Report {
+        strategy: "exhaustive counting",
+        stop: stop.unwrap_or(StopReason::Exhausted),
+        travels: travels as u64,
+        explained: travels as u64,
+        nodes,
+        maps,
+        refuted,
+        expanded: nodes - total.finals.final_maps,
+        finals: total.finals,
+        removals: total.removals,
+        certificate: None,
+        levels: total.levels,
+        seconds: started.elapsed().as_secs_f64(),
+        tree_bytes: tree.bytes(),
+    })
+}
+
+/// What is counted on the way.
+struct Counting<'a> {
+    levels: Vec<LevelCounts>,
+    finals: FinalCounts,
+    removals: Removals,
+    preference: Preference,
+    watch: &'a Watch,
+    until_look: u64,
+    stop: Option<StopReason>,
+}
+
+impl<'a> Counting<'a> {
+    fn new(preference: Preference, watch: &'a Watch) -> Self {
+        Counting {
+            levels: Vec::new(),
+            finals: FinalCounts::default(),
+            removals: Removals::default(),
+            preference,
+            watch,
+            until_look: LOOK,
+            stop: None,
+        }
+    }
+
+    fn nodes(&self) -> u64 {
+        self.levels.iter().map(|level| level.nodes).sum()
+    }
+
+    fn merge(&mut self, branch: &Counting<'_>) {
+        for (level, counted) in self.levels.iter_mut().zip(&branch.levels) {
+            *level += *counted;
+        }
+        self.finals.merge(&branch.finals, self.preference);
+        self.removals += branch.removals;
+    }
+
+    fn level(&mut self, depth: usize) -> &mut LevelCounts {
+        if depth >= self.levels.len() {
+            self.levels.resize(depth + 1, LevelCounts::default());
+        }
+        &mut self.levels[depth]
+    }
+}
+
+impl Visitor for Counting<'_> {
+    fn node(&mut self, depth: usize, new_map: bool) -> ControlFlow<()> {
+        let level = self.level(depth);
+        level.nodes += 1;
+        level.maps += u64::from(new_map);
+        self.until_look -= 1;
+        if self.until_look == 0 {
+            self.until_look = LOOK;
+            self.watch.add_nodes(LOOK);
+            self.stop = self.watch.interruption().or_else(|| self.watch.excess(self.nodes(), 0));
+            if self.stop.is_some() {
+                return ControlFlow::Break(());
+            }
+        }
+        ControlFlow::Continue(())
+    }
+
+    fn refuted(&mut self, depth: usize) {
+        self.level(depth).refuted += 1;
+    }
+
+    fn last(&mut self, hypothesis: &Hypothesis) {
+        self.finals.count(&hypothesis.map, self.preference);
+    }
+}

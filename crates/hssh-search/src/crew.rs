@@ -1,0 +1,102 @@
+//! The threads that expand a frontier together, each with a cursor of its own.
+
+use std::sync::Mutex;
+
+use hssh_topology::{Axioms, Derivation, Extension, Hypothesis, Removals};
+use rayon::prelude::*;
+
+use crate::experience::Experience;
+use crate::tree::{Child, Cursor, NodeId, Outcome, Tree};
+
+/// A pool of threads, and of cursors that wait where they were used last.
+///
+/// Work is cut into pieces that do not depend on the number of threads, and results come back in
+/// the order of the pieces: so does everything made of them.
+#[derive(Debug)]
+pub(crate) struct Crew {
+    pool: rayon::ThreadPool,
+    cursors: Mutex<Vec<Cursor>>,
+}
+
+impl Crew {
+    /// That many threads; 0 for one per core.
+    ///
+    /// # Errors
+    /// If the operating system gives no threads.
+    pub(crate) fn new(threads: usize) -> Result<Self, rayon::ThreadPoolBuildError> {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build()?;
+        Ok(Crew { pool, cursors: Mutex::new(Vec::new()) })
+    }
+
+    pub(crate) fn threads(&self) -> usize {
+        self.pool.current_num_threads()
+    }
+
+    /// Applies `work` to each piece, each time with a cursor; the results in the order of the pieces.
+    pub(crate) fn map<T: Sync, R: Send>(
+        &self,
+        pieces: &[T],
+        experience: &Experience,
+        work: impl Fn(&mut Cursor, &T) -> R + Sync,
+    ) -> Vec<R> {
+        let on_one = |piece: &T| {
+            let waiting = self.waiting().pop();
+            let mut cursor = waiting.unwrap_or_else(|| Cursor::new(experience));
+            let result = work(&mut cursor, piece);
+            self.waiting().push(cursor);
+            result
+        };
+        if let [piece] = pieces {
+            return vec![on_one(piece)];
+        }
+        self.pool.install(|| pieces.par_iter().map(on_one).collect())
+    }
+
+    fn waiting(&self) -> std::sync::MutexGuard<'_, Vec<Cursor>> {
+        self.cursors.lock().unwrap_or_else(std::sync::PoisonError::into_inner)
+    }
+
+    /// Forgets all cursors: the tree they stand in is gone.
+    pub(crate) fn recall(&self) {
+        self.waiting().clear();
+    }
+}
+
+/// Applies the recursive step to a node of the tree and hands each successor to `each`, together
+/// with the hypothesis as it is in that successor's map.
+pub(crate) fn expand(
+    cursor: &mut Cursor,
+    node: NodeId,
+    (tree, experience, axioms): (&Tree, &Experience, &Axioms),
+    (extensions, removals): (&mut Vec<Extension>, &mut Removals),
+    look_inside: bool,
+    mut each: impl FnMut(Child, &Hypothesis),
+) -> Outcome {
+    let observation = experience.observations[tree.depth(node)];
+    let hypothesis = cursor.go_to(node, tree, experience);
+    match hypothesis.step(observation, &experience.catalog, axioms, extensions, removals) {
+        Derivation::PredictedConsistent(arrival) => {
+            each(Child { parent: node, arrival, growth: None }, hypothesis);
+            Outcome::Predicted
+        }
+        Derivation::PredictedInconsistent => Outcome::Refuted,
+        Derivation::Expand(exit) => {
+            let new_arrival = hssh_topology::MapOlp(hypothesis.map.olp_count() + observation.entry.0);
+            for &extension in extensions.iter() {
+                let arrival = match extension {
+                    Extension::NewPlace => new_arrival,
+                    Extension::Closure(gateway) => gateway,
+                };
+                let child = Child { parent: node, arrival, growth: Some((exit, extension)) };
+                if look_inside {
+                    hypothesis.extend(exit, extension, observation, &experience.catalog);
+                    each(child, hypothesis);
+                    hypothesis.retract(extension);
+                } else {
+                    each(child, hypothesis);
+                }
+            }
+            Outcome::Expanded
+        }
+    }
+}
