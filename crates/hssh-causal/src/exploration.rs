@@ -1,6 +1,8 @@
 //! Explorations: what the robot saw and did, as plain data (section 2.3).
 
-use hssh_topology::{Olp, Star};
+use hssh_topology::{Olp, OlpName, Star};
+
+use crate::bearings::{BearingError, check_bearings};
 
 /// Which of an exploration's star types: an index into [`Exploration::star_types`].
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
@@ -77,8 +79,26 @@ pub enum ExplorationError {
         /// How many bearings were given.
         bearings: usize,
     },
+    /// A bearing is no direction, or contradicts the clockwise order.
+    #[error("star `{name}`: {problem}")]
+    Bearing {
+        /// The star type's name.
+        name: String,
+        /// What is wrong with it.
+        problem: BearingError,
+    },
+    /// A label that is empty or has white space around it, so that a reader cannot see what it is.
+    #[error("star `{name}`: the label {label:?} of `{olp}` is empty or has white space around it")]
+    Label {
+        /// The star type's name.
+        name: String,
+        /// The labeled end.
+        olp: OlpName,
+        /// Its label.
+        label: String,
+    },
     /// A star type index past the end of the list.
-    #[error("star type {0} does not exist: there are {1}")]
+    #[error("star type {0} does not exist: there are {1}, counted from 0")]
     NoSuchStarType(u32, usize),
     /// A travel is impossible.
     #[error("travel {travel}: {problem}")]
@@ -94,7 +114,7 @@ pub enum ExplorationError {
 #[derive(Clone, PartialEq, Debug, thiserror::Error)]
 pub enum TravelError {
     /// The end does not exist in the star.
-    #[error("star `{star}` has no end number {olp}; it has {degree}")]
+    #[error("star `{star}` has no end number {olp}: it has {degree}, counted from 0")]
     NoSuchEnd {
         /// The star type's name.
         star: String,
@@ -104,9 +124,7 @@ pub enum TravelError {
         degree: u32,
     },
     /// A closed end was used to leave or to enter.
-    #[error(
-        "end `{olp}` of star `{star}` is closed, so the robot cannot {verb} by it; travelable are {open}"
-    )]
+    #[error("the robot cannot {verb} star `{star}` by `{olp}`, which is closed; travelable: {open}")]
     ClosedEnd {
         /// The star type's name.
         star: String,
@@ -179,8 +197,9 @@ impl Exploration {
     /// An exploration from its parts.
     ///
     /// # Errors
-    /// If a star name repeats, a star type or an end does not exist, a travel uses a closed end,
-    /// or an odometry is no measurement.
+    /// If a star name repeats, bearings contradict the clockwise order of a star's ends, a label is
+    /// blank, a star type or an end does not exist, a travel uses a closed end, or an odometry is
+    /// no measurement.
     pub fn new(
         star_types: Vec<NamedStar>,
         start: StarType,
@@ -194,6 +213,9 @@ impl Exploration {
             if ends != bearings {
                 return Err(ExplorationError::BearingCount { name: named.name.clone(), ends, bearings });
             }
+            check_bearings(&named.star, &named.bearings)
+                .map_err(|problem| ExplorationError::Bearing { name: named.name.clone(), problem })?;
+            check_labels(named)?;
         }
         let exploration = Exploration { star_types, start, travels };
         exploration.named_star(start)?;
@@ -257,6 +279,18 @@ impl Exploration {
     }
 }
 
+fn check_labels(named: &NamedStar) -> Result<(), ExplorationError> {
+    for end in named.star.ends() {
+        if let Some(label) = &end.label
+            && (label.is_empty() || label.trim() != label)
+        {
+            let (name, label) = (named.name.clone(), label.clone());
+            return Err(ExplorationError::Label { name, olp: end.name, label });
+        }
+    }
+    Ok(())
+}
+
 fn usable(named: &NamedStar, olp: Olp, verb: &'static str) -> Result<(), TravelError> {
     let star = &named.star;
     if olp.0 >= star.degree() {
@@ -268,4 +302,59 @@ fn usable(named: &NamedStar, olp: Olp, verb: &'static str) -> Result<(), TravelE
     let open = star.gateways().map(|olp| star.name(olp).to_string()).collect::<Vec<_>>();
     let open = if open.is_empty() { "none".to_owned() } else { open.join(", ") };
     Err(TravelError::ClosedEnd { star: named.name.clone(), olp: star.name(olp).to_string(), verb, open })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn named(name: &str, ends: &str) -> NamedStar {
+        let star: Star = ends.parse().unwrap();
+        NamedStar { name: name.to_owned(), bearings: vec![None; star.ends().len()], star }
+    }
+
+    fn walk(exit: u32, entry: u32, star: u32) -> Travel {
+        Travel { exit: Olp(exit), entry: Olp(entry), star: StarType(star), odometry: None }
+    }
+
+    fn refusal(star_types: Vec<NamedStar>, start: u32, travels: Vec<Travel>) -> String {
+        Exploration::new(star_types, StarType(start), travels).unwrap_err().to_string()
+    }
+
+    #[test]
+    fn refuses_what_is_no_exploration() {
+        let corner = || named("L", "0+ 1+ (0-) (1-)");
+        assert_eq!(refusal(vec![corner(), corner()], 0, vec![]), "two star types are both named `L`");
+        assert_eq!(
+            refusal(vec![corner()], 1, vec![]),
+            "star type 1 does not exist: there are 1, counted from 0"
+        );
+        assert_eq!(
+            refusal(vec![corner()], 0, vec![walk(0, 1, 0), walk(4, 1, 0)]),
+            "travel 2: star `L` has no end number 4: it has 4, counted from 0"
+        );
+        assert_eq!(
+            refusal(vec![corner()], 0, vec![walk(0, 2, 0)]),
+            "travel 1: the robot cannot enter star `L` by `0-`, which is closed; travelable: 0+, 1+"
+        );
+        assert_eq!(
+            refusal(vec![named("L", "0+: 0-")], 0, vec![]),
+            "star `L`: the label \"\" of `0+` is empty or has white space around it"
+        );
+        let bearings = vec![Some(0.0), Some(0.5), Some(1.0), None];
+        assert_eq!(
+            refusal(vec![NamedStar { bearings, ..corner() }], 0, vec![]),
+            "star `L`: the bearing of `0-` contradicts the clockwise order of the ends: turning clockwise from `1+` to `0-` passes `0+`"
+        );
+    }
+
+    #[test]
+    fn prefixes_keep_stars_and_start() {
+        let whole =
+            Exploration::new(vec![named("I", "0+ 0-")], StarType(0), vec![walk(0, 1, 0), walk(0, 1, 0)])
+                .unwrap();
+        assert_eq!(whole.prefix(1).travels(), &whole.travels()[..1]);
+        assert_eq!(whole.prefix(9), whole);
+        assert_eq!(whole.prefix(0).visits().count(), 1);
+    }
 }

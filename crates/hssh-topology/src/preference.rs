@@ -39,7 +39,12 @@ impl Measure {
     #[must_use]
     pub fn bound(map: &TopologicalMap, travels: u32) -> Self {
         let ends = map.closed_end_count() + map.pending_count().saturating_sub(2 * travels);
-        Measure { f1: 0, f2: ends.div_ceil(2), f3: map.place_count(), genus: map.graph().genus() }
+        Measure {
+            f1: map.permanently_undetermined_boundary_count(),
+            f2: ends.div_ceil(2),
+            f3: map.place_count(),
+            genus: map.graph().genus(),
+        }
     }
 }
 

@@ -11,7 +11,7 @@ pub use path::{Course, Direction, PathId};
 pub use region::Region;
 
 use boundary::Boundaries;
-use path::PathRecord;
+use path::{Joined, PathRecord};
 use serde::{Deserialize, Serialize};
 
 use crate::catalog::StarId;
@@ -83,8 +83,6 @@ struct OlpRecord {
     path: PathId,
     /// Which way along its path it points.
     direction: Direction,
-    /// At an end of a path: the end on the other side. Stale elsewhere.
-    far_end: MapOlp,
 }
 
 /// The counts that axioms, preference and reports are made of.
@@ -102,28 +100,8 @@ struct Tally {
 /// One step of growth, with what is needed to take it back.
 #[derive(Clone, Debug)]
 enum Change {
-    Place {
-        tally: Tally,
-    },
-    Link {
-        a: MapOlp,
-        b: MapOlp,
-        link: Link,
-        tally: Tally,
-        boundaries: boundary::Mark,
-        absorbed: Option<Absorbed>,
-    },
-}
-
-/// Which path became part of which other one.
-#[derive(Clone, Copy, Debug)]
-struct Absorbed {
-    into: PathId,
-    /// The end of the absorbed path that was linked.
-    at: MapOlp,
-    from: PathId,
-    flipped: bool,
-    before: PathRecord,
+    Place { tally: Tally },
+    Link { a: MapOlp, b: MapOlp, link: Link, tally: Tally, boundaries: boundary::Mark, joined: Joined },
 }
 
 impl TopologicalMap {
@@ -148,7 +126,9 @@ impl TopologicalMap {
             let opposite = MapOlp(first + star.opposite(olp).0);
             let is_new_path = here < opposite;
             let (path, direction) = if is_new_path {
-                (self.add_path(place), Direction::Downstream)
+                let ends = [olp, star.opposite(olp)];
+                let pending = ends.iter().filter(|&&end| star.is_travelable(end)).count();
+                (self.add_path(place, pending as u32), Direction::Downstream)
             } else {
                 (self.olps[opposite.index()].path, Direction::Upstream)
             };
@@ -159,22 +139,14 @@ impl TopologicalMap {
             });
             self.tally.closed_ends += u32::from(travelable.is_none());
             self.tally.loose_gateways += u32::from(travelable.is_some());
-            self.olps.push(OlpRecord {
-                place,
-                opposite,
-                link: here,
-                dart: travelable,
-                path,
-                direction,
-                far_end: opposite,
-            });
+            self.olps.push(OlpRecord { place, opposite, link: here, dart: travelable, path, direction });
         }
         place
     }
 
-    fn add_path(&mut self, place: PlaceId) -> PathId {
+    fn add_path(&mut self, place: PlaceId, pending_ends: u32) -> PathId {
         let path = PathId(self.paths.len() as u32);
-        self.paths.push(PathRecord::single());
+        self.paths.push(PathRecord::single(pending_ends));
         self.boundaries.push_path(place);
         self.tally.paths += 1;
         self.tally.incidences += 1;
@@ -191,21 +163,19 @@ impl TopologicalMap {
         };
         let tally = self.tally;
         let boundaries = self.boundaries.mark();
-        self.tally.loose_gateways -= self.loose_gateways_of_path_ending(a);
         if self.path(a) == self.path(b) {
             self.see_path_from_itself(a);
         } else {
-            self.tally.loose_gateways -= self.loose_gateways_of_path_ending(b);
             self.see_path_beyond(a, self.path(b));
             self.see_path_beyond(b, self.path(a));
         }
 
         let link = self.graph.link(dart_a, dart_b);
-        let absorbed = self.join_paths(a, b);
+        let joined = self.join_paths(a, b);
         self.olps[a.index()].link = b;
         self.olps[b.index()].link = a;
         self.tally.links += 1;
-        self.history.push(Change::Link { a, b, link, tally, boundaries, absorbed });
+        self.history.push(Change::Link { a, b, link, tally, boundaries, joined });
     }
 
     /// Takes back the last [`add_place`](Self::add_place) or [`link`](Self::link). Nothing happens
@@ -214,10 +184,10 @@ impl TopologicalMap {
         match self.history.pop() {
             None => {}
             Some(Change::Place { tally }) => self.remove_last_place(tally),
-            Some(Change::Link { a, b, link, tally, boundaries, absorbed }) => {
+            Some(Change::Link { a, b, link, tally, boundaries, joined }) => {
                 self.olps[a.index()].link = a;
                 self.olps[b.index()].link = b;
-                self.part_paths(a, b, absorbed);
+                self.part_paths(joined);
                 self.boundaries.restore(boundaries);
                 self.graph.unlink(link);
                 self.tally = tally;
@@ -311,6 +281,13 @@ impl TopologicalMap {
     #[must_use]
     pub fn star(&self, place: PlaceId) -> StarId {
         self.places[place.index()].star
+    }
+
+    /// The number of oriented local paths of all places; the first one of the next place has this
+    /// number.
+    #[must_use]
+    pub fn olp_count(&self) -> u32 {
+        self.olps.len() as u32
     }
 
     /// The oriented local paths of a place, clockwise.

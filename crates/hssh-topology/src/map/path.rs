@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::{Absorbed, MapOlp, PlaceId, TopologicalMap};
+use super::{MapOlp, PlaceId, TopologicalMap};
 
 /// A path of a map. When two paths become one, the one with more places gives its identity.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug, Serialize, Deserialize)]
@@ -43,6 +43,8 @@ pub(super) struct PathRecord {
     local_paths: u32,
     /// How many different places lie on it.
     places: u32,
+    /// How many of its two ends are pending gateways; the others are closed. A circular path has no ends.
+    pub(super) pending_ends: u32,
     pub(super) state: PathState,
 }
 
@@ -57,9 +59,33 @@ pub(super) enum PathState {
 }
 
 impl PathRecord {
-    pub(super) fn single() -> Self {
-        PathRecord { local_paths: 1, places: 1, state: PathState::Open }
+    /// A path of one local path.
+    pub(super) fn single(pending_ends: u32) -> Self {
+        PathRecord { local_paths: 1, places: 1, pending_ends, state: PathState::Open }
     }
+
+    /// How many of the path's pending gateways are on a path with a single place.
+    pub(super) fn loose_gateways(&self) -> u32 {
+        if self.places == 1 { self.pending_ends } else { 0 }
+    }
+}
+
+/// How two paths became one, or one a circle.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Joined {
+    into: PathId,
+    before: PathRecord,
+    absorbed: Option<Absorbed>,
+}
+
+/// A path that became part of another one.
+#[derive(Clone, Copy, Debug)]
+struct Absorbed {
+    /// The end of it that was linked.
+    at: MapOlp,
+    from: PathId,
+    /// Whether it ran the other way.
+    flipped: bool,
 }
 
 /// A path from its upstream to its downstream end.
@@ -104,11 +130,10 @@ impl TopologicalMap {
         self.paths[path.index()].state == PathState::Circular
     }
 
-    /// The end of a path across from the end `olp`; for an oriented local path at no end it means
-    /// nothing.
+    /// Whether no link can change a path any more: whether both its ends are closed, or it has none.
     #[must_use]
-    pub fn far_end(&self, olp: MapOlp) -> MapOlp {
-        self.olps[olp.index()].far_end
+    pub fn is_complete(&self, path: PathId) -> bool {
+        self.paths[path.index()].pending_ends == 0
     }
 
     /// All paths with their places in order.
@@ -149,77 +174,60 @@ impl TopologicalMap {
         course
     }
 
-    /// Pending gateways at the ends of the path that ends in `end`, if it has a single place.
-    pub(super) fn loose_gateways_of_path_ending(&self, end: MapOlp) -> u32 {
-        let path = self.paths[self.path(end).index()];
-        if path.places > 1 || path.state == PathState::Circular {
-            return 0;
-        }
-        u32::from(self.is_pending(end)) + u32::from(self.is_pending(self.far_end(end)))
-    }
-
     /// Makes the paths that end in the pending gateways `a` and `b` one path. The one with fewer
-    /// local paths becomes part of the other; `None` if the two are the ends of one path.
-    pub(super) fn join_paths(&mut self, a: MapOlp, b: MapOlp) -> Option<Absorbed> {
+    /// local paths becomes part of the other.
+    pub(super) fn join_paths(&mut self, a: MapOlp, b: MapOlp) -> Joined {
+        let record = |end: MapOlp| self.paths[self.path(end).index()];
         if self.path(a) == self.path(b) {
-            let path = self.path(a);
-            self.paths[path.index()].state = PathState::Circular;
-            return None;
+            let (into, before) = (self.path(a), record(a));
+            self.tally.loose_gateways -= before.loose_gateways();
+            let path = &mut self.paths[into.index()];
+            (path.state, path.pending_ends) = (PathState::Circular, 0);
+            return Joined { into, before, absorbed: None };
         }
-        let size = |end: MapOlp| self.paths[self.path(end).index()].local_paths;
-        let (kept, at) = if size(a) >= size(b) { (a, b) } else { (b, a) };
+        let (at, kept) = if record(a).local_paths >= record(b).local_paths { (b, a) } else { (a, b) };
         let (into, from) = (self.path(kept), self.path(at));
         let flipped = self.direction(kept) == self.direction(at);
-        let absorbed = Absorbed { into, at, from, flipped, before: self.paths[into.index()] };
         self.rename_path(at, into, flipped);
 
-        let (end, other_end) = (self.far_end(a), self.far_end(b));
-        self.olps[end.index()].far_end = other_end;
-        self.olps[other_end.index()].far_end = end;
-        self.paths[from.index()].state = PathState::Absorbed;
-        let (kept, lost) = (absorbed.before, self.paths[from.index()]);
+        let (before, lost) = (self.paths[into.index()], self.paths[from.index()]);
         let places = self.boundaries.absorb(into, from, flipped);
-        let joined = &mut self.paths[into.index()];
-        joined.local_paths += lost.local_paths;
-        joined.places = places;
+        let joined = PathRecord {
+            local_paths: before.local_paths + lost.local_paths,
+            places,
+            pending_ends: before.pending_ends + lost.pending_ends - 2,
+            state: PathState::Open,
+        };
+        self.paths[into.index()] = joined;
+        self.paths[from.index()].state = PathState::Absorbed;
         self.tally.paths -= 1;
-        self.tally.incidences -= u64::from(kept.places + lost.places - places);
-        self.tally.loose_gateways += self.loose_gateways_of_path_ending(end);
-        Some(absorbed)
+        self.tally.incidences -= u64::from(before.places + lost.places - places);
+        self.tally.loose_gateways -= before.loose_gateways() + lost.loose_gateways();
+        self.tally.loose_gateways += joined.loose_gateways();
+        Joined { into, before, absorbed: Some(Absorbed { at, from, flipped }) }
     }
 
-    /// Takes back [`join_paths`](Self::join_paths) at the gateways `a` and `b`, which are pending again.
-    pub(super) fn part_paths(&mut self, a: MapOlp, b: MapOlp, absorbed: Option<Absorbed>) {
-        let Some(Absorbed { into, at, from, flipped, before }) = absorbed else {
-            let path = self.path(a);
-            self.paths[path.index()].state = PathState::Open;
-            return;
-        };
-        for end in [a, b] {
-            let far_end = self.far_end(end);
-            self.olps[far_end.index()].far_end = end;
+    /// Takes back [`join_paths`](Self::join_paths); its two gateways are pending again.
+    pub(super) fn part_paths(&mut self, joined: Joined) {
+        self.paths[joined.into.index()] = joined.before;
+        if let Some(Absorbed { at, from, flipped }) = joined.absorbed {
+            self.paths[from.index()].state = PathState::Open;
+            self.rename_path(at, from, flipped);
         }
-        self.paths[into.index()] = before;
-        self.paths[from.index()].state = PathState::Open;
-        self.rename_path(at, from, flipped);
     }
 
     /// Gives every oriented local path of the path that ends in `end` another path and, if asked,
     /// the other direction.
     fn rename_path(&mut self, end: MapOlp, path: PathId, flip: bool) {
-        let mut toward = end;
-        loop {
-            let away = self.opposite(toward);
-            for olp in [toward, away] {
-                let record = &mut self.olps[olp.index()];
+        self.walk_inward(end, |map, toward| {
+            for olp in [toward, map.opposite(toward)] {
+                let record = &mut map.olps[olp.index()];
                 record.path = path;
-                record.direction = if flip { record.direction.reversed() } else { record.direction };
+                if flip {
+                    record.direction = record.direction.reversed();
+                }
             }
-            match self.linked(away) {
-                Some(next) => toward = next,
-                None => return,
-            }
-        }
+        });
     }
 
     /// Calls `visit` at each place of the path that ends in `end`, from `end` inward, with the
