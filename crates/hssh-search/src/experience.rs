@@ -14,16 +14,19 @@ pub struct Experience {
     pub observations: Vec<Observation>,
 }
 
+/// The star types of the exploration keep their numbers: `StarType(i)` becomes `StarId(i)`.
 impl From<&Exploration> for Experience {
     fn from(exploration: &Exploration) -> Self {
         let mut catalog = StarCatalog::new();
-        let start = catalog.intern(exploration.star(exploration.start()));
-        let mut observe = |travel: &hssh_causal::Travel| Observation {
+        for named in exploration.star_types() {
+            catalog.add(&named.star);
+        }
+        let observe = |travel: &hssh_causal::Travel| Observation {
             exit: travel.exit,
             entry: travel.entry,
-            star: catalog.intern(exploration.star(travel.star)),
+            star: StarId(travel.star.0),
         };
-        let observations = exploration.travels().iter().map(&mut observe).collect();
-        Experience { catalog, start, observations }
+        let observations = exploration.travels().iter().map(observe).collect();
+        Experience { catalog, start: StarId(exploration.start().0), observations }
     }
 }

@@ -1,9 +1,10 @@
 //! The stars that occur in an exploration, and which of them match under which rotation.
 
+use std::collections::BTreeMap;
+
 use serde::{Deserialize, Serialize};
 
-use crate::isomorphism::Isomorphism;
-use crate::star::{Olp, Star};
+use crate::star::{Olp, Star, Travel};
 
 /// A star of a [`StarCatalog`].
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug, Default, Serialize, Deserialize)]
@@ -18,16 +19,27 @@ impl StarId {
     }
 }
 
-/// All stars met so far, with their isomorphisms tabulated: a match is one look-up.
+/// All stars met so far, sorted into classes of isomorphic ones: a match is one look-up.
 #[derive(Clone, Debug, Default)]
 pub struct StarCatalog {
-    stars: Vec<Star>,
-    /// For each ordered pair of stars where its rotations begin in `matches`, `None` if the stars
-    /// have different degrees.
-    starts: Vec<Option<u32>>,
-    /// Whether the rotation by 0, 1, … is an isomorphism.
-    matches: Vec<bool>,
+    entries: Vec<Entry>,
+    numbers: BTreeMap<Star, StarId>,
+    classes: BTreeMap<Signature, u32>,
+    /// For each class: whether turning its signature by 0, 1, … positions keeps it.
+    automorphisms: Vec<Vec<bool>>,
 }
+
+#[derive(Clone, Debug)]
+struct Entry {
+    star: Star,
+    class: u32,
+    /// The oriented local path at which the signature of the class begins.
+    start: u32,
+}
+
+/// What isomorphisms look at, clockwise: the attribute of each end, and how far it is to the opposite
+/// end. Of all the ends to begin at, the one that gives the least sequence.
+type Signature = Vec<(Travel, Option<String>, u32)>;
 
 impl StarCatalog {
     /// A catalog without stars.
@@ -36,29 +48,27 @@ impl StarCatalog {
         StarCatalog::default()
     }
 
-    /// The number of a star, which is added if it is new.
-    pub fn intern(&mut self, star: &Star) -> StarId {
-        if let Some(known) = self.stars.iter().position(|other| other == star) {
-            return StarId(known as u32);
+    /// Adds a star under a new number, whether or not the catalog has it already.
+    pub fn add(&mut self, star: &Star) -> StarId {
+        let (signature, start) = signature(star);
+        let automorphisms = (0..signature.len()).map(|turn| {
+            let turned = signature.iter().cycle().skip(turn).take(signature.len());
+            turned.eq(signature.iter())
+        });
+        let next_class = self.automorphisms.len() as u32;
+        if !self.classes.contains_key(&signature) {
+            self.automorphisms.push(automorphisms.collect());
         }
-        self.stars.push(star.clone());
-        self.tabulate();
-        StarId(self.stars.len() as u32 - 1)
+        let class = *self.classes.entry(signature).or_insert(next_class);
+        let id = StarId(self.entries.len() as u32);
+        self.entries.push(Entry { star: star.clone(), class, start });
+        self.numbers.entry(star.clone()).or_insert(id);
+        id
     }
 
-    fn tabulate(&mut self) {
-        self.starts.clear();
-        self.matches.clear();
-        for from in &self.stars {
-            for to in &self.stars {
-                let start = (from.degree() == to.degree()).then_some(self.matches.len() as u32);
-                self.starts.push(start);
-                if start.is_some() {
-                    let is_match = |image| Isomorphism::anchored(from, Olp(0), to, image).is_some();
-                    self.matches.extend(to.olps().map(is_match));
-                }
-            }
-        }
+    /// The number of a star, which is added if it is new.
+    pub fn intern(&mut self, star: &Star) -> StarId {
+        self.numbers.get(star).copied().unwrap_or_else(|| self.add(star))
     }
 
     /// A star by its number.
@@ -67,37 +77,65 @@ impl StarCatalog {
     /// If the number is not from this catalog.
     #[must_use]
     pub fn star(&self, id: StarId) -> &Star {
-        &self.stars[id.index()]
+        &self.entries[id.index()].star
     }
 
     /// All stars, in the order of their numbers.
-    #[must_use]
-    pub fn stars(&self) -> &[Star] {
-        &self.stars
+    pub fn stars(&self) -> impl ExactSizeIterator<Item = &Star> {
+        self.entries.iter().map(|entry| &entry.star)
     }
 
     /// Whether two stars look the same when observed from `olp` and from `image`: whether there is
     /// an isomorphism that takes the one to the other (Definition 2.2).
     #[must_use]
     pub fn matches(&self, from: StarId, olp: Olp, to: StarId, image: Olp) -> bool {
-        let Some(start) = self.starts[from.index() * self.stars.len() + to.index()] else { return false };
-        let degree = self.star(from).degree();
-        let rotation = if image.0 >= olp.0 { image.0 - olp.0 } else { image.0 + degree - olp.0 };
-        self.matches[(start + rotation) as usize]
+        let (from, to) = (&self.entries[from.index()], &self.entries[to.index()]);
+        let automorphisms = &self.automorphisms[from.class as usize];
+        let degree = automorphisms.len() as u32;
+        let minus = |a: u32, b: u32| if a >= b { a - b } else { a + degree - b };
+        from.class == to.class
+            && automorphisms[minus(minus(image.0, to.start), minus(olp.0, from.start)) as usize]
     }
+}
+
+/// The signature of a star, and the end it begins at.
+fn signature(star: &Star) -> (Signature, u32) {
+    let degree = star.degree();
+    let look = |olp: Olp| {
+        let end = &star.ends()[olp.index()];
+        (end.travel, end.label.clone(), (star.opposite(olp).0 + degree - olp.0) % degree)
+    };
+    let ends: Signature = star.olps().map(look).collect();
+    let turned = |start: u32| ends.iter().cycle().skip(start as usize).take(ends.len());
+    let start = (0..degree).min_by(|&a, &b| turned(a).cmp(turned(b))).unwrap_or(0);
+    (turned(start).cloned().collect(), start)
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::isomorphism::Isomorphism;
 
     #[test]
     fn the_table_says_what_isomorphisms_say() {
-        let texts = ["0+ 1+ 0- 1-", "0+ (1+) 0- 1-", "(1+) 0- 1- 0+", "0+ 0-", "0+ 1+ 0- 1-:door"];
+        let texts = [
+            "0+ 1+ 0- 1-",
+            "0+ (1+) 0- 1-",
+            "(1+) 0- 1- 0+",
+            "0+ 0-",
+            "0+ 1+ 0- 1-:door",
+            "0+ 0- 1+ 1-",
+            "0+ 1+ 1- 0-",
+            "1+ (1-) 0+ 0-",
+        ];
         let stars: Vec<Star> = texts.iter().map(|text| text.parse().unwrap()).collect();
         let mut catalog = StarCatalog::new();
         let ids: Vec<StarId> = stars.iter().map(|star| catalog.intern(star)).collect();
-        assert_eq!(ids, stars.iter().map(|star| catalog.intern(star)).collect::<Vec<_>>());
+        assert_eq!(
+            ids,
+            stars.iter().map(|star| catalog.intern(star)).collect::<Vec<_>>(),
+            "known stars keep their numbers"
+        );
         for (from, &from_id) in stars.iter().zip(&ids) {
             for (to, &to_id) in stars.iter().zip(&ids) {
                 for olp in from.olps() {

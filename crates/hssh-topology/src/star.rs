@@ -88,7 +88,7 @@ pub enum Travel {
 }
 
 /// An oriented local path as it stands in a star: its name and its attribute α.
-#[derive(Clone, PartialEq, Eq, Hash, Debug, Serialize, Deserialize)]
+#[derive(Clone, PartialEq, Eq, PartialOrd, Ord, Hash, Debug, Serialize, Deserialize)]
 pub struct StarEnd {
     /// The name, used by people only: no isomorphism looks at it.
     pub name: OlpName,
@@ -101,7 +101,7 @@ pub struct StarEnd {
 /// The local topology of a place: oriented local paths in clockwise order (Definition 2.1).
 ///
 /// Where the enumeration begins is immaterial to isomorphisms, but it fixes what an [`Olp`] means.
-#[derive(Clone, PartialEq, Eq, Hash, Debug, Serialize)]
+#[derive(Clone, PartialEq, Eq, PartialOrd, Ord, Hash, Debug, Serialize)]
 pub struct Star {
     ends: Vec<StarEnd>,
     /// `opposite[olp]`: the other direction of the same local path.
