@@ -5,7 +5,7 @@ use std::time::Instant;
 
 use hssh_causal::Exploration;
 use hssh_topology::{
-    Axioms, Hypothesis, Measure, Observation, Olp, Preference, Star, StarCatalog, TopologicalMap,
+    Axioms, Hypothesis, Measure, Observation, Olp, Position, Preference, Star, StarCatalog, TopologicalMap,
 };
 use serde::{Deserialize, Serialize};
 
@@ -364,6 +364,20 @@ impl Mapper {
         let mut cursor = Cursor::new(&self.experience);
         cursor.go_to(node, &self.tree, &self.experience);
         cursor.into_hypothesis()
+    }
+
+    /// Where the robot was in the map of a node, after each travel that it explains, the start first.
+    #[must_use]
+    pub fn visits(&self, node: NodeId) -> Vec<Position> {
+        let mut hypothesis = self.hypothesis(node);
+        let start = Hypothesis::root(&self.experience.catalog, self.experience.start).position;
+        let branch = self.tree.branch(node);
+        let arrivals = branch.iter().filter_map(|&node| self.tree.arrival(node));
+        let came = arrivals.zip(&self.experience.observations).map(|(arrival, observation)| {
+            hypothesis.arrive(arrival, observation.entry);
+            hypothesis.position
+        });
+        std::iter::once(start).chain(came).collect()
     }
 
     /// The tree of all hypotheses made.

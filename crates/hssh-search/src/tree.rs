@@ -169,6 +169,12 @@ impl Tree {
         }
     }
 
+    /// The gateway by which the robot arrived, in the node's map; `None` at the root.
+    #[must_use]
+    pub fn arrival(&self, node: NodeId) -> Option<MapOlp> {
+        (node != NodeId::ROOT).then(|| self.nodes[node.index()].arrival)
+    }
+
     /// The nodes from the root down to `node`, both included.
     #[must_use]
     pub fn branch(&self, node: NodeId) -> Vec<NodeId> {

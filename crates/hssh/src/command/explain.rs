@@ -1,0 +1,120 @@
+//! `hssh explain`: how a map explains an exploration, travel by travel, in words.
+
+use hssh_causal::Exploration;
+use hssh_search::Mapper;
+use hssh_topology::{Discovery, MapSketch, Olp, Replay, ReplayedTravel, Star, violations};
+use serde::Serialize;
+
+use crate::arguments::ExplainOptions;
+use crate::command::map::{search, status_of};
+use crate::failure::{Failure, Status};
+use crate::input::read_exploration;
+use crate::output::{print, print_json};
+
+/// What `--json` prints.
+#[derive(Serialize)]
+struct Explanation {
+    rank: u32,
+    f1: u64,
+    f2: u32,
+    f3: u32,
+    genus: u32,
+    closed: bool,
+    map: MapSketch,
+    replay: Replay,
+}
+
+pub(crate) fn run(options: &ExplainOptions) -> Result<Status, Failure> {
+    let exploration = read_exploration(&options.file)?;
+    let exploration = exploration.prefix(options.search.travels.unwrap_or(usize::MAX));
+    if options.search.strategy().is_none() {
+        return Err(Failure::Usage("counting keeps no maps to explain: choose another --search".to_owned()));
+    }
+    let mapper = search(&options.search, &exploration)?;
+    let report = mapper.report();
+    let status = status_of(&report);
+    if report.finals.final_maps == 0 {
+        print("No map explains the exploration.\n")?;
+        return Ok(status);
+    }
+    let maps = mapper.maps(options.rank as usize);
+    let Some(map) = maps.get(options.rank as usize - 1) else {
+        return Err(Failure::NoSuchRank { asked: options.rank, found: maps.len() });
+    };
+
+    let explained = exploration.prefix(mapper.explained());
+    let hypothesis = mapper.hypothesis(map.node);
+    let sketch = MapSketch::of(&hypothesis.map, &mapper.experience().catalog);
+    let replay = checked_replay(&sketch, &mapper, &explained, options)?;
+    let measure = map.measure;
+    if options.json {
+        let (rank, closed) = (options.rank, map.closed);
+        let (f1, f2, f3, genus) = (measure.f1, measure.f2, measure.f3, measure.genus);
+        print_json(&Explanation { rank, f1, f2, f3, genus, closed, map: sketch, replay })?;
+        return Ok(status);
+    }
+    let mut text = format!("Map {} of the ranking: {measure}.\n", options.rank);
+    let start = &explained.star_types()[explained.start().index()].name;
+    text += &format!("      start at place 0, a {start}.\n");
+    for (index, step) in replay.travels.iter().enumerate() {
+        text += &format!("{:>4}. {}\n", index + 1, sentence(index, step, &explained, &sketch));
+    }
+    text += &ending(&mapper, &sketch, map.closed);
+    print(&text)?;
+    Ok(status)
+}
+
+/// Replays the exploration in the map by the independent checker, and has it look for violated axioms.
+fn checked_replay(
+    sketch: &MapSketch,
+    mapper: &Mapper,
+    exploration: &Exploration,
+    options: &ExplainOptions,
+) -> Result<Replay, Failure> {
+    let experience = mapper.experience();
+    let stars: Vec<Star> = experience.catalog.stars().cloned().collect();
+    let observations = &experience.observations[..exploration.travels().len()];
+    let replay = hssh_topology::replay(sketch, &stars, experience.start, observations).map_err(|error| {
+        Failure::Usage(format!("the map found does not explain the exploration: {error}"))
+    })?;
+    match violations(sketch, &options.search.axioms()) {
+        Ok(violations) if violations.is_empty() => Ok(replay),
+        Ok(violations) => Err(Failure::Usage(format!("the map found violates an axiom: {}", violations[0]))),
+        Err(error) => Err(Failure::Usage(format!("the map found is malformed: {error}"))),
+    }
+}
+
+/// One travel in words.
+fn sentence(index: usize, step: &ReplayedTravel, exploration: &Exploration, map: &MapSketch) -> String {
+    let travel = &exploration.travels()[index];
+    let name = &exploration.star_types()[travel.star.index()].name;
+    let end = |place: hssh_topology::PlaceId, olp: Olp| map.places[place.0 as usize].name(olp);
+    let (exit, entry) = (end(step.from, step.exit), end(step.to, step.entry));
+    let (from, to) = (step.from.0, step.to.0);
+    let left = format!("leave place {from} by {exit}, see a {name}");
+    let turned = match step.rotation {
+        0 => String::new(),
+        1 => ", seen turned by 1 end".to_owned(),
+        ends => format!(", seen turned by {ends} ends"),
+    };
+    match step.discovery {
+        Discovery::NewPlace => format!("{left}: a new place {to}, entered by {entry}."),
+        Discovery::LoopClosure => {
+            format!("{left}: back at place {to}, by its pending gateway {entry}{turned}.")
+        }
+        Discovery::KnownLink => format!("{left}, as predicted: place {to}, entered by {entry}{turned}."),
+    }
+}
+
+fn ending(mapper: &Mapper, map: &MapSketch, closed: bool) -> String {
+    let places = map.places.len();
+    let links = map.links.len();
+    let rest = if closed { "no gateway is pending" } else { "some gateways are pending" };
+    let checked =
+        "The replay checks itself: every star matched, every place and link is needed, no axiom is violated.";
+    let short = match mapper.experience().observations.len().checked_sub(mapper.explained()) {
+        Some(missing @ 1..) => format!(" A limit stopped the search {missing} travels before the end."),
+        _ => String::new(),
+    };
+    format!("      {places} places, {links} links; {rest}.{short}\n{checked}\n")
+}

@@ -1,0 +1,255 @@
+//! `hssh map`: the maps that explain an exploration, ranked and drawn.
+
+use std::path::{Path, PathBuf};
+
+use hssh_causal::Exploration;
+use hssh_draw::{
+    Bearings, Layout, MapOptions as DrawOptions, SearchTree, TreeOptions, draw_map, draw_tree, map_to_dot,
+    tree_to_dot,
+};
+use hssh_search::{Experience, Mapper, NodeId, RankedMap, Report, StopReason, count, place_by_odometry};
+use hssh_topology::{MapSketch, Position};
+use serde::Serialize;
+
+use crate::arguments::{MapOptions, SearchOptions};
+use crate::failure::{Failure, Status};
+use crate::input::read_exploration;
+use crate::output::{counted, print, print_json, write_file};
+use crate::progress::watched;
+
+/// What `--json` prints: the report's fields, and the maps.
+#[derive(Serialize)]
+struct Answer {
+    #[serde(flatten)]
+    report: Report,
+    ranking: Vec<Entry>,
+}
+
+/// A map in the ranking.
+#[derive(Serialize)]
+struct Entry {
+    rank: usize,
+    f1: u64,
+    f2: u32,
+    f3: u32,
+    genus: u32,
+    places: u32,
+    paths: u32,
+    closed: bool,
+    nearly_closed: bool,
+    optimal: bool,
+    /// Where the robot is at the end.
+    position: Position,
+    map: MapSketch,
+}
+
+pub(crate) fn run(options: &MapOptions) -> Result<Status, Failure> {
+    let exploration = read_exploration(&options.file)?;
+    let exploration = exploration.prefix(options.search.travels.unwrap_or(usize::MAX));
+    let pictures = options.svg.is_some() || options.dot.is_some() || options.tree.is_some();
+    if options.search.strategy().is_none() {
+        if pictures {
+            let help = "counting keeps no maps to draw: choose another --search for pictures";
+            return Err(Failure::Usage(help.to_owned()));
+        }
+        return run_count(options, &exploration);
+    }
+    let mapper = search(&options.search, &exploration)?;
+    let report = mapper.report();
+    let maps = mapper.maps(if options.all { usize::MAX } else { options.top });
+    let status = status_of(&report);
+    print_answer(options, &mapper, &report, &maps)?;
+    draw(options, &exploration, &mapper, &report, &maps)?;
+    Ok(status)
+}
+
+/// Searches with a progress line; Ctrl-C leaves what is known so far.
+pub(crate) fn search(options: &SearchOptions, exploration: &Exploration) -> Result<Mapper, Failure> {
+    let builder = Mapper::builder()
+        .axioms(options.axioms())
+        .preference(options.preference())
+        .strategy(options.strategy().unwrap_or_default())
+        .limits(options.limits())
+        .threads(options.threads);
+    let travels = exploration.travels().len();
+    Ok(watched(travels, |monitor| builder.monitor(monitor.clone()).explain(exploration))?)
+}
+
+pub(crate) fn status_of(report: &Report) -> Status {
+    match (report.stop.is_complete(), report.finals.final_maps) {
+        (false, _) => Status::Stopped,
+        (true, 0) => Status::NothingConsistent,
+        (true, _) => Status::Found,
+    }
+}
+
+fn run_count(options: &MapOptions, exploration: &Exploration) -> Result<Status, Failure> {
+    let experience = Experience::from(exploration);
+    let search = &options.search;
+    let report = watched(experience.observations.len(), |monitor| {
+        count(&experience, &search.axioms(), search.preference(), search.limits(), search.threads, monitor)
+    })?;
+    if options.json {
+        print_json(&report)?;
+    } else {
+        print(&report.to_string())?;
+    }
+    Ok(status_of(&report))
+}
+
+fn print_answer(
+    options: &MapOptions,
+    mapper: &Mapper,
+    report: &Report,
+    maps: &[RankedMap],
+) -> Result<(), Failure> {
+    let optimal = optimal_of(report, maps);
+    if options.json {
+        let entry = |(index, map): (usize, &RankedMap)| {
+            let hypothesis = mapper.hypothesis(map.node);
+            Entry {
+                rank: index + 1,
+                f1: map.measure.f1,
+                f2: map.measure.f2,
+                f3: map.measure.f3,
+                genus: map.measure.genus,
+                places: map.measure.f3,
+                paths: map.measure.f2,
+                closed: map.closed,
+                nearly_closed: map.nearly_closed,
+                optimal: index < optimal,
+                position: hypothesis.position,
+                map: MapSketch::of(&hypothesis.map, &mapper.experience().catalog),
+            }
+        };
+        let ranking = maps.iter().enumerate().map(entry).collect();
+        return print_json(&Answer { report: report.clone(), ranking });
+    }
+    let mut text = report.to_string();
+    text += &verdict(report, mapper);
+    if !maps.is_empty() {
+        text += "\n  rank     f1   f2 paths  f3 places  genus  closed\n";
+    }
+    for (index, map) in maps.iter().enumerate() {
+        let mark = if index < optimal { '*' } else { ' ' };
+        let measure = map.measure;
+        let closed = if map.closed { "yes" } else { "no" };
+        text += &format!(
+            "{:>6} {mark}{:>6}{:>11}{:>11}{:>7}  {closed}\n",
+            index + 1,
+            measure.f1,
+            measure.f2,
+            measure.f3,
+            measure.genus
+        );
+    }
+    let listed = maps.len() as u64;
+    if report.finals.final_maps > listed {
+        text += &format!("  … and {} more (--all lists them)\n", report.finals.final_maps - listed);
+    }
+    print(&text)
+}
+
+/// The answer in a sentence.
+fn verdict(report: &Report, mapper: &Mapper) -> String {
+    let finals = &report.finals;
+    let maps = counted(finals.final_maps as usize, "map");
+    if finals.final_maps == 0 && report.stop.is_complete() {
+        let died = report.levels.iter().position(|level| level.nodes == 0).unwrap_or(report.levels.len());
+        return format!(
+            "No map explains the exploration: none survives travel {died}. Is a star wrong, or an axiom too strict?\n"
+        );
+    }
+    let explains = if finals.final_maps == 1 { "explains" } else { "explain" };
+    match report.stop {
+        StopReason::Exhausted if finals.optimal == 1 => {
+            format!("{maps} {explains} the exploration; one is optimal.\n")
+        }
+        StopReason::Exhausted => {
+            format!("{maps} {explains} the exploration; {} are optimal.\n", finals.optimal)
+        }
+        StopReason::Found => {
+            "A map explains the exploration; whether a better one exists was not searched.\n".to_owned()
+        }
+        StopReason::Proved if finals.optimal == 1 => {
+            "One map is optimal; that no other is as good is proved.\n".to_owned()
+        }
+        StopReason::Proved => {
+            format!("{} maps are optimal; that no other is as good is proved.\n", finals.optimal)
+        }
+        _ if mapper.explained() < report.travels as usize && finals.final_maps > 0 => format!(
+            "Stopped early: {maps} {explains} the first {} of {} travels.\n",
+            report.explained, report.travels
+        ),
+        _ => format!("Stopped early with {} that {explains} everything; others may be better.\n", maps),
+    }
+}
+
+/// How many of the listed maps are optimal.
+fn optimal_of(report: &Report, maps: &[RankedMap]) -> usize {
+    maps.len().min(report.finals.optimal as usize)
+}
+
+fn draw(
+    options: &MapOptions,
+    exploration: &Exploration,
+    mapper: &Mapper,
+    report: &Report,
+    maps: &[RankedMap],
+) -> Result<(), Failure> {
+    let bearings = Bearings(exploration.star_types().iter().map(|named| named.bearings.clone()).collect());
+    let optimal: Vec<NodeId> = maps.iter().take(optimal_of(report, maps)).map(|map| map.node).collect();
+    if let Some(file) = &options.tree {
+        let drawn = TreeOptions { bearings: bearings.clone(), ..TreeOptions::default() };
+        let tree = SearchTree::of(mapper.tree(), mapper.experience(), &optimal, drawn.most_maps);
+        let is_dot = file.extension().is_some_and(|ending| ending == "dot");
+        let text = if is_dot { tree_to_dot(&tree, &drawn)? } else { draw_tree(&tree, &drawn)? };
+        write_file(file, &text)?;
+    }
+    for (index, &node) in optimal.iter().enumerate() {
+        let (svg, dot) = (numbered(options.svg.as_deref(), index), numbered(options.dot.as_deref(), index));
+        if svg.is_none() && dot.is_none() {
+            break;
+        }
+        let hypothesis = mapper.hypothesis(node);
+        let map = &hypothesis.map;
+        let placement = place_by_odometry(exploration, &mapper.visits(node))?;
+        let layout = match placement {
+            Some(placement) => Layout::measured(map, placement.poses, &bearings)?,
+            None => Layout::schematic(map, &bearings)?,
+        };
+        let drawn = DrawOptions {
+            title: Some(title(&options.file, index, optimal.len())),
+            current: Some(hypothesis.position.place),
+            star_names: exploration.star_types().iter().map(|named| named.name.clone()).collect(),
+            ..DrawOptions::default()
+        };
+        if let Some(file) = svg {
+            write_file(&file, &draw_map(map, &layout, &drawn))?;
+        }
+        if let Some(file) = dot {
+            write_file(&file, &map_to_dot(map, &mapper.experience().catalog, &drawn))?;
+        }
+    }
+    Ok(())
+}
+
+fn title(file: &Path, index: usize, optimal: usize) -> String {
+    let name = file.file_stem().map_or_else(|| "exploration".into(), |stem| stem.to_string_lossy());
+    match optimal {
+        1 => format!("{name}: the optimal map"),
+        _ => format!("{name}: optimal map {} of {optimal}", index + 1),
+    }
+}
+
+/// The file for the picture of the optimal map with that index: `map.svg`, `map-2.svg`, …
+fn numbered(file: Option<&Path>, index: usize) -> Option<PathBuf> {
+    let file = file?;
+    if index == 0 {
+        return Some(file.to_owned());
+    }
+    let stem = file.file_stem().unwrap_or_default().to_string_lossy();
+    let name = format!("{stem}-{}", index + 1);
+    let ending = file.extension().map_or(String::new(), |ending| format!(".{}", ending.to_string_lossy()));
+    Some(file.with_file_name(name + &ending))
+}

@@ -1,0 +1,79 @@
+//! How the program ends: exit codes, and what it says when it cannot do what was asked.
+
+use std::io::Write;
+use std::path::{Path, PathBuf};
+use std::process::ExitCode;
+
+use hssh_causal::ParseError;
+use hssh_draw::{LayoutError, TreeError};
+use hssh_search::{PlacementError, ThreadsError};
+
+/// How a command ended that did what was asked.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(crate) enum Status {
+    /// Something was found.
+    Found,
+    /// No map explains the exploration.
+    NothingConsistent,
+    /// A limit or an interruption stopped the search.
+    Stopped,
+}
+
+impl From<Status> for ExitCode {
+    fn from(status: Status) -> Self {
+        match status {
+            Status::Found => ExitCode::SUCCESS,
+            Status::NothingConsistent => ExitCode::from(1),
+            Status::Stopped => ExitCode::from(3),
+        }
+    }
+}
+
+/// Why a command could not do what was asked.
+#[derive(Debug, thiserror::Error)]
+pub(crate) enum Failure {
+    #[error("cannot read {}: {error}\nhelp: give the path of an exploration, such as fixtures/aces.ron, or - for standard input", file.display())]
+    Read { file: PathBuf, error: std::io::Error },
+    #[error("cannot write {}: {error}\nhelp: the folder must exist and be writable", file.display())]
+    Write { file: PathBuf, error: std::io::Error },
+    #[error("{rendered}")]
+    Parse { rendered: String },
+    #[error(transparent)]
+    Threads(#[from] ThreadsError),
+    #[error("cannot lay out the map: {0}")]
+    Layout(#[from] LayoutError),
+    #[error("cannot draw the search tree: {0}\nhelp: --travels N draws the tree of the first N travels")]
+    Tree(#[from] TreeError),
+    #[error("cannot place the map by its odometry: {0}")]
+    Placement(#[from] PlacementError),
+    #[error("there is no map number {asked}: only {found} {explain} the exploration", explain = if *found == 1 { "map explains" } else { "maps explain" })]
+    NoSuchRank { asked: u32, found: usize },
+    #[error("{0}")]
+    Usage(String),
+    #[error("cannot print: {0}")]
+    Print(#[from] std::io::Error),
+}
+
+impl Failure {
+    pub(crate) fn parse(file: &Path, bytes: &[u8], error: &ParseError) -> Self {
+        let source = String::from_utf8_lossy(bytes);
+        Failure::Parse { rendered: error.render(&file.display().to_string(), &source) }
+    }
+
+    /// Says what went wrong on standard error. Nobody reads on where a pipe was closed.
+    pub(crate) fn print(&self) {
+        let prefix = if matches!(self, Failure::Parse { .. }) { "" } else { "error: " };
+        let text = self.to_string();
+        if !self.is_broken_pipe() {
+            let _ = writeln!(std::io::stderr(), "{prefix}{}", text.trim_end());
+        }
+    }
+
+    pub(crate) fn exit_code(&self) -> ExitCode {
+        if self.is_broken_pipe() { ExitCode::SUCCESS } else { ExitCode::from(2) }
+    }
+
+    fn is_broken_pipe(&self) -> bool {
+        matches!(self, Failure::Print(error) if error.kind() == std::io::ErrorKind::BrokenPipe)
+    }
+}

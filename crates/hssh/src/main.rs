@@ -1,0 +1,35 @@
+//! The `hssh` program: explorations in, ranked maps and pictures out.
+//!
+//! Exit codes: 0 something was found, 1 nothing is consistent, 2 the input is bad, 3 a limit or an
+//! interruption stopped the search.
+
+mod arguments;
+mod command;
+mod failure;
+mod input;
+mod output;
+mod progress;
+
+use std::process::ExitCode;
+
+use arguments::{Arguments, Command};
+use clap::Parser;
+use tracing_subscriber::EnvFilter;
+
+fn main() -> ExitCode {
+    let arguments = Arguments::parse();
+    let filter = EnvFilter::try_from_env("HSSH_LOG").unwrap_or_else(|_| EnvFilter::new("warn"));
+    tracing_subscriber::fmt().with_env_filter(filter).with_writer(std::io::stderr).init();
+    let done = match arguments.command {
+        Command::Map(options) => command::map::run(&options),
+        Command::Check(options) => command::check::run(&options),
+        Command::Explain(options) => command::explain::run(&options),
+    };
+    match done {
+        Ok(status) => status.into(),
+        Err(failure) => {
+            failure.print();
+            failure.exit_code()
+        }
+    }
+}

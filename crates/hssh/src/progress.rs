@@ -1,0 +1,58 @@
+//! The progress line of long searches, and Ctrl-C.
+
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::time::Duration;
+
+use hssh_search::Monitor;
+use indicatif::{HumanCount, ProgressBar, ProgressStyle};
+
+/// A search that takes less than this shows no progress.
+const PATIENCE: Duration = Duration::from_millis(700);
+
+/// Runs `search` with a monitor that Ctrl-C interrupts; a second Ctrl-C ends the program at once. On a
+/// terminal, a line on standard error says how far the search is.
+pub(crate) fn watched<T>(travels: usize, search: impl FnOnce(&Arc<Monitor>) -> T) -> T {
+    let monitor = Arc::<Monitor>::default();
+    let on_signal = Arc::clone(&monitor);
+    let asked = AtomicBool::new(false);
+    let handler = ctrlc::set_handler(move || {
+        if asked.swap(true, Ordering::Relaxed) {
+            std::process::exit(130);
+        }
+        on_signal.interrupt();
+    });
+    if let Err(error) = handler {
+        tracing::warn!("Ctrl-C will end the program without a result: {error}");
+    }
+
+    let done = AtomicBool::new(false);
+    std::thread::scope(|scope| {
+        let line = scope.spawn(|| show(&monitor, travels, &done));
+        let result = search(&monitor);
+        done.store(true, Ordering::Relaxed);
+        line.thread().unpark();
+        result
+    })
+}
+
+/// Shows how far the search is until it is done.
+fn show(monitor: &Monitor, travels: usize, done: &AtomicBool) {
+    std::thread::park_timeout(PATIENCE);
+    if done.load(Ordering::Relaxed) {
+        return;
+    }
+    let bar = ProgressBar::new(travels as u64);
+    if let Ok(style) =
+        ProgressStyle::with_template("{spinner} travel {pos} of {len}  {msg}  {elapsed}  (Ctrl-C stops)")
+    {
+        bar.set_style(style);
+    }
+    while !done.load(Ordering::Relaxed) {
+        bar.set_position(monitor.travels());
+        bar.set_message(format!("{} hypotheses", HumanCount(monitor.nodes())));
+        bar.tick();
+        std::thread::park_timeout(Duration::from_millis(100));
+    }
+    bar.finish_and_clear();
+}
