@@ -52,15 +52,6 @@ impl BreadthFirst {
         let mut refuted = 0;
         let pieces = pieces(&self.fringe);
         for together in pieces.chunks(PIECES_AT_ONCE) {
-            let stop = watch.interruption().or_else(|| watch.excess(tree.len() as u64, tree.bytes()));
-            if let Some(reason) = stop {
-                for node in self.fringe.clone() {
-                    tree.set_outcome(NodeId(node), Outcome::Open);
-                }
-                tree.truncate(nodes, maps);
-                crew.recall();
-                return Err(reason);
-            }
             let before: &Tree = tree;
             let grown = crew.map(together, experience, |cursor, piece| {
                 let mut grown =
@@ -84,6 +75,15 @@ impl BreadthFirst {
                     tree.push(child);
                 }
                 removed += grown.removals;
+            }
+            let stop = watch.interruption().or_else(|| watch.excess(tree.len() as u64, tree.bytes()));
+            if let Some(reason) = stop {
+                for node in self.fringe.clone() {
+                    tree.set_outcome(NodeId(node), Outcome::Open);
+                }
+                tree.truncate(nodes, maps);
+                crew.recall();
+                return Err(reason);
             }
         }
         tally.removals += removed;

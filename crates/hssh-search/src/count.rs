@@ -82,7 +82,7 @@ pub fn count(
         strategy: "exhaustive counting",
         stop: stop.unwrap_or(StopReason::Exhausted),
         travels: travels as u64,
-        explained: travels as u64,
+        explained: if stop.is_none() { travels as u64 } else { 0 },
         nodes,
         maps,
         refuted,

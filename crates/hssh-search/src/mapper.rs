@@ -320,13 +320,16 @@ impl Mapper {
         self.stop
     }
 
-    /// How many travels the maps explain: fewer than were observed if a limit stopped the search.
+    /// How many travels the maps explain: fewer than were observed if a limit stopped the search, and
+    /// none if best-first has no map yet.
     #[must_use]
     pub fn explained(&self) -> usize {
-        match &self.search {
-            Search::BreadthFirst(search) => search.depth,
-            Search::BestFirst(_) | Search::Proof(_) => self.searched,
-        }
+        let has_maps = match &self.search {
+            Search::BreadthFirst(search) => return search.depth,
+            Search::BestFirst(search) => !search.maps().is_empty(),
+            Search::Proof(search) => !search.maps().is_empty(),
+        };
+        if has_maps || self.stop.is_complete() { self.searched } else { 0 }
     }
 
     /// The best maps that explain everything, in order of preference and then of creation, at most

@@ -162,19 +162,19 @@ impl fmt::Display for Report {
             ("optimal", finals.optimal),
         ];
         for (name, count) in rows {
-            writeln!(f, "  {name:<24}{count:>14}")?;
+            writeln!(f, "  {name:<32}{count:>14}")?;
         }
         if let Some(best) = finals.best {
-            writeln!(f, "  best                    {best}")?;
+            writeln!(f, "  best          {best}")?;
         }
         for axiom in Axiom::ALL {
             let removed = self.removals.by(axiom);
             if removed > 0 {
-                writeln!(f, "  removed, {:<15}{removed:>14}", axiom.to_string())?;
+                writeln!(f, "  removed: {:<23}{removed:>14}", axiom.to_string())?;
             }
         }
         if let Some(certificate) = &self.certificate {
-            writeln!(f, "  certificate             {certificate}")?;
+            writeln!(f, "  certificate   {certificate}")?;
         }
         Ok(())
     }

@@ -177,11 +177,14 @@ fn verdict(report: &Report, mapper: &Mapper) -> String {
         StopReason::Proved => {
             format!("{} maps are optimal; that no other is as good is proved.\n", finals.optimal)
         }
-        _ if mapper.explained() < report.travels as usize && finals.final_maps > 0 => format!(
+        _ if finals.final_maps == 0 => {
+            "Stopped early: no map that explains everything was found yet.\n".to_owned()
+        }
+        _ if mapper.explained() < report.travels as usize => format!(
             "Stopped early: {maps} {explains} the first {} of {} travels.\n",
             report.explained, report.travels
         ),
-        _ => format!("Stopped early with {} that {explains} everything; others may be better.\n", maps),
+        _ => format!("Stopped early: {maps} {explains} everything; others may be better.\n"),
     }
 }
 

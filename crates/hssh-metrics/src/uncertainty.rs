@@ -1,0 +1,237 @@
+//! Covariance and information matrices that cannot be wrong, and how they travel between frames (section 4.2).
+
+use nalgebra::{Cholesky, Matrix3, U3};
+
+use crate::pose::{Pose, frame_rotation};
+
+/// The largest condition number accepted: beyond it, neither inversion nor rotation keeps the matrix
+/// positive definite in double precision.
+const WORST_CONDITION: f64 = 1e14;
+
+/// How far a matrix may be from symmetric, relative to its entries: text files round.
+const SYMMETRY_TOLERANCE: f64 = 1e-9;
+
+/// The covariance of a pose's (x, y, θ): finite, symmetric, positive definite; m², m·rad, rad².
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub struct Covariance(Matrix3<f64>);
+
+/// The inverse of a covariance of (x, y, θ): finite, symmetric, positive definite.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub struct Information(Matrix3<f64>);
+
+/// Why a matrix is no covariance and no information matrix.
+#[derive(Clone, Copy, PartialEq, Debug, thiserror::Error)]
+pub enum UncertaintyError {
+    /// NaN or infinite.
+    #[error("row {row}, column {column} is {value}, which is no finite number")]
+    NotFinite {
+        /// Row, from 1.
+        row: usize,
+        /// Column, from 1.
+        column: usize,
+        /// The entry.
+        value: f64,
+    },
+    /// M ≠ Mᵀ.
+    #[error(
+        "not symmetric: row {row}, column {column} is {value}, but row {column}, column {row} is {mirrored}"
+    )]
+    NotSymmetric {
+        /// Row, from 1.
+        row: usize,
+        /// Column, from 1.
+        column: usize,
+        /// The entry.
+        value: f64,
+        /// Its mirror image.
+        mirrored: f64,
+    },
+    /// An eigenvalue is zero or negative.
+    #[error(
+        "not positive definite: the smallest eigenvalue is {0:e}, but every direction needs a positive one"
+    )]
+    NotPositiveDefinite(f64),
+    /// Positive definite, but so nearly singular that its inverse would be noise.
+    #[error(
+        "too close to singular: the condition number is about {0:e}, and {WORST_CONDITION:e} is the most that \
+         double precision bears; give the best known direction a larger variance"
+    )]
+    IllConditioned(f64),
+}
+
+/// Checks a matrix once and for all; the result is exactly symmetric.
+fn checked(matrix: Matrix3<f64>) -> Result<Matrix3<f64>, UncertaintyError> {
+    for row in 0..3 {
+        for column in 0..3 {
+            let value = matrix[(row, column)];
+            if !value.is_finite() {
+                return Err(UncertaintyError::NotFinite { row: row + 1, column: column + 1, value });
+            }
+        }
+    }
+    for (row, column) in [(0, 1), (0, 2), (1, 2)] {
+        let (value, mirrored) = (matrix[(row, column)], matrix[(column, row)]);
+        if (value - mirrored).abs() > SYMMETRY_TOLERANCE * value.abs().max(mirrored.abs()) {
+            return Err(UncertaintyError::NotSymmetric { row: row + 1, column: column + 1, value, mirrored });
+        }
+    }
+    let matrix = symmetrized(matrix);
+    let cholesky = matrix
+        .cholesky()
+        .ok_or_else(|| UncertaintyError::NotPositiveDefinite(matrix.symmetric_eigenvalues().min()))?;
+    let condition = matrix.amax() * cholesky.inverse().amax();
+    if condition <= WORST_CONDITION { Ok(matrix) } else { Err(UncertaintyError::IllConditioned(condition)) }
+}
+
+fn symmetrized(matrix: Matrix3<f64>) -> Matrix3<f64> {
+    0.5 * matrix + 0.5 * matrix.transpose()
+}
+
+fn cholesky(matrix: &Matrix3<f64>) -> Cholesky<f64, U3> {
+    matrix.cholesky().expect("a checked matrix is positive definite with room to spare")
+}
+
+fn turned(matrix: &Matrix3<f64>, theta: f64) -> Matrix3<f64> {
+    let rotation = frame_rotation(theta);
+    symmetrized(rotation * matrix * rotation.transpose())
+}
+
+fn log_determinant(matrix: &Matrix3<f64>) -> f64 {
+    2.0 * cholesky(matrix).l_dirty().diagonal().map(f64::ln).sum()
+}
+
+impl Covariance {
+    /// A covariance from its matrix.
+    ///
+    /// # Errors
+    /// If an entry is not finite, or the matrix not symmetric, not positive definite, or too close to singular.
+    pub fn new(matrix: Matrix3<f64>) -> Result<Self, UncertaintyError> {
+        checked(matrix).map(Covariance)
+    }
+
+    /// Independent standard deviations: metres, metres, radians.
+    ///
+    /// # Errors
+    /// As [`Covariance::new`]: none of them may be zero.
+    pub fn from_standard_deviations(x: f64, y: f64, theta: f64) -> Result<Self, UncertaintyError> {
+        Covariance::new(Matrix3::from_diagonal(&[x * x, y * y, theta * theta].into()))
+    }
+
+    /// The matrix, rows and columns in the order x, y, θ.
+    #[must_use]
+    pub fn matrix(&self) -> &Matrix3<f64> {
+        &self.0
+    }
+
+    /// C⁻¹.
+    #[must_use]
+    pub fn information(&self) -> Information {
+        Information(symmetrized(cholesky(&self.0).inverse()))
+    }
+
+    /// R C Rᵀ with the rotation by `theta`: the same uncertainty, with x and y expressed in a frame in
+    /// which the present one is turned by `theta` radians.
+    #[must_use]
+    pub fn rotated(&self, theta: f64) -> Self {
+        Covariance(turned(&self.0, theta))
+    }
+
+    /// ln |C|.
+    #[must_use]
+    pub fn log_determinant(&self) -> f64 {
+        log_determinant(&self.0)
+    }
+}
+
+impl Information {
+    /// An information matrix from its entries.
+    ///
+    /// # Errors
+    /// If an entry is not finite, or the matrix not symmetric, not positive definite, or too close to singular.
+    pub fn new(matrix: Matrix3<f64>) -> Result<Self, UncertaintyError> {
+        checked(matrix).map(Information)
+    }
+
+    /// The unit matrix.
+    #[must_use]
+    pub fn identity() -> Self {
+        Information(Matrix3::identity())
+    }
+
+    /// The matrix, rows and columns in the order x, y, θ.
+    #[must_use]
+    pub fn matrix(&self) -> &Matrix3<f64> {
+        &self.0
+    }
+
+    /// Ω⁻¹.
+    #[must_use]
+    pub fn covariance(&self) -> Covariance {
+        Covariance(symmetrized(cholesky(&self.0).inverse()))
+    }
+
+    /// R Ω Rᵀ with the rotation by `theta`, as [`Covariance::rotated`].
+    #[must_use]
+    pub fn rotated(&self, theta: f64) -> Self {
+        Information(turned(&self.0, theta))
+    }
+
+    /// `factor` · Ω: the information of a measurement that counts `factor` times, which must be positive.
+    pub(crate) fn scaled(&self, factor: f64) -> Self {
+        Information(factor * self.0)
+    }
+
+    /// ln |Ω|.
+    #[must_use]
+    pub fn log_determinant(&self) -> f64 {
+        log_determinant(&self.0)
+    }
+}
+
+/// A relative pose with the covariance of its three numbers: x and y in the frame the pose is given in.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub struct UncertainPose {
+    /// The expected pose.
+    pub mean: Pose,
+    /// The covariance of (x, y, θ) of the pose.
+    pub covariance: Covariance,
+}
+
+impl UncertainPose {
+    /// `self ⊕ other` with its covariance to first order, the two errors being independent.
+    ///
+    /// # Errors
+    /// If the lever arm is so long that the covariance comes too close to singular.
+    pub fn compose(&self, other: &UncertainPose) -> Result<UncertainPose, UncertaintyError> {
+        let (by_self, by_other) = self.mean.compose_jacobians(other.mean);
+        let covariance = by_self * self.covariance.0 * by_self.transpose()
+            + by_other * other.covariance.0 * by_other.transpose();
+        Ok(UncertainPose {
+            mean: self.mean.compose(other.mean),
+            covariance: Covariance::new(symmetrized(covariance))?,
+        })
+    }
+
+    /// `⊖ self` with its covariance to first order.
+    ///
+    /// # Errors
+    /// As [`UncertainPose::compose`].
+    pub fn inverse(&self) -> Result<UncertainPose, UncertaintyError> {
+        let jacobian = self.mean.inverse_jacobian();
+        let covariance = jacobian * self.covariance.0 * jacobian.transpose();
+        Ok(UncertainPose { mean: self.mean.inverse(), covariance: Covariance::new(symmetrized(covariance))? })
+    }
+
+    /// The compound of a chain of relative poses, each given in the frame of the one before; `None` if
+    /// the chain is empty, for then nothing is uncertain.
+    ///
+    /// # Errors
+    /// As [`UncertainPose::compose`].
+    pub fn compound<'a>(
+        chain: impl IntoIterator<Item = &'a UncertainPose>,
+    ) -> Result<Option<UncertainPose>, UncertaintyError> {
+        let mut links = chain.into_iter();
+        let Some(first) = links.next() else { return Ok(None) };
+        links.try_fold(*first, |sofar, link| sofar.compose(link)).map(Some)
+    }
+}

@@ -1,0 +1,11 @@
+//! The searches against one another, against a naive mapper, and against independent checks of what
+//! they find.
+
+mod agreement;
+mod cases;
+mod found;
+mod limits;
+mod online;
+mod proof;
+mod published;
+mod threads;

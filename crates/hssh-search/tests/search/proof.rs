@@ -1,0 +1,106 @@
+//! Best-first with proof finds exactly the optima, because its bound is one.
+
+use std::collections::BTreeSet;
+
+use hssh_search::{Cursor, Goal, Mapper, StopReason, Strategy};
+use hssh_topology::{GenusRank, MapSketch, Measure, Preference};
+use proptest::prelude::*;
+
+use crate::cases::{breadth_first, case, last_nodes, sketch, sketches};
+
+const RANKS: [GenusRank; 3] = [GenusRank::Ignored, GenusRank::First, GenusRank::Last];
+
+fn text(sketches: &[MapSketch]) -> BTreeSet<String> {
+    sketches.iter().map(|sketch| format!("{sketch:?}")).collect()
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(150))]
+
+    #[test]
+    fn a_proof_finds_exactly_the_optima((exploration, axioms) in case(2000)) {
+        for preference in RANKS.map(|genus| Preference { genus }) {
+            let search = |strategy| {
+                let builder = Mapper::builder().axioms(axioms).preference(preference);
+                builder.strategy(strategy).explain(&exploration).unwrap()
+            };
+            let all = search(Strategy::BreadthFirst);
+            for goal in [Goal::AnyMap, Goal::ClosedMap] {
+                let accepted: Vec<_> = all
+                    .maps(usize::MAX)
+                    .into_iter()
+                    .filter(|map| map.closed || goal == Goal::AnyMap)
+                    .collect();
+                let best = accepted.first().map(|map| map.measure);
+                let is_best = |measure| best.is_some_and(|best| preference.rank(measure) == preference.rank(best));
+                let optima: Vec<MapSketch> = accepted
+                    .iter()
+                    .filter(|map| is_best(map.measure))
+                    .map(|map| sketch(&all, map.node))
+                    .collect();
+
+                let proof = search(Strategy::Proof(goal));
+                let found = sketches(&proof);
+                prop_assert_eq!(found.len(), optima.len());
+                prop_assert_eq!(text(&found), text(&optima));
+
+                let report = proof.report();
+                let certificate = report.certificate.unwrap();
+                let complete = if best.is_some() { StopReason::Proved } else { StopReason::Exhausted };
+                prop_assert_eq!(report.stop, complete);
+                prop_assert!(certificate.proved);
+                let rank = |measure: Option<Measure>| measure.map(|measure| preference.rank(measure));
+                prop_assert_eq!(rank(certificate.best), rank(best));
+                if let (Some(open), Some(best)) = (rank(certificate.open_bound), rank(best)) {
+                    prop_assert!(open > best);
+                }
+                prop_assert!(report.nodes <= all.report().nodes);
+            }
+        }
+    }
+
+    /// Along every branch, every number of the bound is at most what the last map measures.
+    #[test]
+    fn bounds_are_bounds((exploration, axioms) in case(1500)) {
+        let mapper = breadth_first(&exploration, axioms);
+        let (tree, travels) = (mapper.tree(), exploration.travels().len());
+        let mut cursor = Cursor::new(mapper.experience());
+        let mut at = |node| cursor.go_to(node, tree, mapper.experience()).map.clone();
+        let bounds: Vec<Measure> =
+            tree.nodes().map(|node| Measure::bound(&at(node), (travels - tree.depth(node)) as u32)).collect();
+        for last in last_nodes(&mapper) {
+            let measure = Measure::of(&at(last));
+            for node in tree.branch(last) {
+                let bound = bounds[node.0 as usize];
+                let holds = bound.f1 <= measure.f1
+                    && bound.f2 <= measure.f2
+                    && bound.f3 <= measure.f3
+                    && bound.genus <= measure.genus;
+                prop_assert!(holds, "{} after {} travels bounds {}", bound, tree.depth(node), measure);
+            }
+        }
+    }
+
+    /// Best-first finds a map whenever there is one, and a closed one if it is asked to.
+    #[test]
+    fn best_first_finds_a_map((exploration, axioms) in case(2000)) {
+        let all = breadth_first(&exploration, axioms);
+        let maps = all.maps(usize::MAX);
+        for goal in [Goal::AnyMap, Goal::ClosedMap] {
+            let builder = Mapper::builder().axioms(axioms).strategy(Strategy::BestFirst(goal));
+            let mapper = builder.explain(&exploration).unwrap();
+            let there_is_one = maps.iter().any(|map| map.closed || goal == Goal::AnyMap);
+            let expected = if there_is_one { StopReason::Found } else { StopReason::Exhausted };
+            prop_assert_eq!(mapper.report().stop, expected);
+            let found = mapper.maps(usize::MAX);
+            if there_is_one {
+                prop_assert_eq!(found.len(), 1);
+                prop_assert!(found[0].closed || goal == Goal::AnyMap);
+            } else {
+                prop_assert_eq!(found.len(), maps.len());
+            }
+            let known = text(&sketches(&all));
+            prop_assert!(text(&sketches(&mapper)).is_subset(&known));
+        }
+    }
+}

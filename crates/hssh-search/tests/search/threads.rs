@@ -1,0 +1,76 @@
+//! The number of threads changes nothing but the time.
+
+use hssh_causal::Exploration;
+use hssh_search::{Experience, Goal, Limits, Mapper, Report, Strategy, count};
+use hssh_topology::{Axioms, Preference};
+use hssh_world::{snake, thesis_3x4};
+use proptest::prelude::*;
+
+use crate::cases::{case, grid_walk, planar, sketches};
+
+pub(crate) const STRATEGIES: [Strategy; 5] = [
+    Strategy::BreadthFirst,
+    Strategy::BestFirst(Goal::AnyMap),
+    Strategy::BestFirst(Goal::ClosedMap),
+    Strategy::Proof(Goal::AnyMap),
+    Strategy::Proof(Goal::ClosedMap),
+];
+
+fn timeless(report: Report) -> Report {
+    Report { seconds: 0.0, ..report }
+}
+
+fn threads_change_nothing(exploration: &Exploration, axioms: Axioms, limits: Limits) {
+    let experience = Experience::from(exploration);
+    let counted = |threads| {
+        let preference = Preference::default();
+        timeless(count(&experience, &axioms, preference, limits, threads, &Default::default()).unwrap())
+    };
+    let alone = counted(1);
+    assert!([2, 3].into_iter().all(|threads| counted(threads) == alone));
+
+    for strategy in STRATEGIES {
+        let search = |threads| {
+            let builder = Mapper::builder().axioms(axioms).strategy(strategy).limits(limits);
+            builder.threads(threads).explain(exploration).unwrap()
+        };
+        let alone = search(1);
+        for threads in [2, 3] {
+            let together = search(threads);
+            assert_eq!(timeless(together.report()), timeless(alone.report()));
+            assert_eq!(together.maps(usize::MAX), alone.maps(usize::MAX));
+            assert_eq!(sketches(&together), sketches(&alone));
+            let (tree, other) = (together.tree(), alone.tree());
+            assert_eq!(tree.len(), other.len());
+            for node in tree.nodes() {
+                assert_eq!(tree.parent(node), other.parent(node));
+                assert_eq!(tree.derived(node), other.derived(node));
+                assert_eq!(tree.outcome(node), other.outcome(node));
+            }
+        }
+    }
+}
+
+#[test]
+fn grids() {
+    threads_change_nothing(&grid_walk(3, 4, &thesis_3x4()), Axioms::default(), Limits::default());
+    let to_sixteen = Axioms { max_places: Some(16), ..planar() };
+    threads_change_nothing(&grid_walk(4, 4, &snake(4, 4)), to_sixteen, Limits::default());
+}
+
+#[test]
+fn a_limit_on_nodes_stops_at_the_same_node() {
+    for nodes in [0, 1, 100, 1000, 3000] {
+        let limits = Limits { nodes: Some(nodes), ..Limits::default() };
+        threads_change_nothing(&grid_walk(4, 4, &snake(4, 4)), planar(), limits);
+    }
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(30))]
+
+    #[test]
+    fn random_explorations((exploration, axioms) in case(2000)) {
+        threads_change_nothing(&exploration, axioms, Limits::default());
+    }
+}

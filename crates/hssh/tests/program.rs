@@ -1,0 +1,134 @@
+//! The program as a user runs it: what it prints, what it writes, how it exits.
+
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output, Stdio};
+
+fn root() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("../..")
+}
+
+/// Runs the program in the root of the repository.
+fn hssh(arguments: &[&str]) -> Output {
+    Command::new(env!("CARGO_BIN_EXE_hssh"))
+        .current_dir(root())
+        .args(arguments)
+        .env_remove("HSSH_LOG")
+        .output()
+        .expect("the program starts")
+}
+
+/// Exit code, standard output and standard error, to be read side by side in a snapshot.
+fn session(arguments: &[&str]) -> String {
+    let output = hssh(arguments);
+    let text = |bytes: &[u8]| String::from_utf8_lossy(bytes).into_owned();
+    format!(
+        "$ hssh {}\n{}{}exit {}\n",
+        arguments.join(" "),
+        text(&output.stdout),
+        text(&output.stderr),
+        output.status.code().expect("the program exits by itself")
+    )
+}
+
+fn scratch(name: &str) -> PathBuf {
+    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join(name);
+    std::fs::create_dir_all(&folder).unwrap();
+    folder
+}
+
+#[test]
+fn the_main_job() {
+    insta::assert_snapshot!(session(&["map", "fixtures/aces.ron", "--planar"]));
+}
+
+#[test]
+fn every_search_has_the_same_optimum() {
+    for search in ["breadth-first", "proof", "count"] {
+        let output = hssh(&["map", "fixtures/aces.ron", "--search", search, "--json"]);
+        let answer: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
+        assert_eq!(answer["optimal"], 2, "{search}");
+        assert_eq!(answer["best"]["f1"], 0, "{search}");
+        assert_eq!((&answer["best"]["f2"], &answer["best"]["f3"]), (&6.into(), &9.into()), "{search}");
+    }
+}
+
+#[test]
+fn threads_change_nothing() {
+    let answer = |threads: &str| {
+        let output = hssh(&["map", "fixtures/aces.ron", "--json", "--all", "--threads", threads]);
+        let mut answer: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
+        answer["seconds"] = 0.into();
+        answer
+    };
+    assert_eq!(answer("1"), answer("3"));
+}
+
+#[test]
+fn explains_and_checks() {
+    insta::assert_snapshot!(session(&["explain", "fixtures/aces.ron", "--planar"]));
+    insta::assert_snapshot!(session(&["check", "fixtures/aces.ron"]));
+}
+
+#[test]
+fn says_what_is_wrong() {
+    let cases: &[&[&str]] = &[
+        &["map", "no-such-file.ron"],
+        &["map", "fixtures"],
+        &["check", "fixtures/malformed/unknown_star_near_miss.ron"],
+        &["explain", "fixtures/aces.ron", "--planar", "--rank", "1000"],
+        &["map", "fixtures/aces.ron", "--search", "count", "--svg", "map.svg"],
+        &["map", "fixtures/aces.ron", "--max-time", "soon"],
+        &["map", "fixtures/aces.ron", "--svg", "no/such/folder/map.svg", "--top", "1"],
+        &["map", "fixtures/aces.ron", "--max-places", "3"],
+        &["map", "fixtures/aces.ron", "--max-nodes", "20"],
+        &["map", "fixtures/aces.ron", "--search", "count", "--max-nodes", "20"],
+        &["map", "fixtures/aces.ron", "--search", "proof", "--max-time", "0"],
+    ];
+    insta::assert_snapshot!(cases.iter().map(|case| session(case)).collect::<Vec<_>>().join("\n"));
+}
+
+#[test]
+fn writes_pictures() {
+    let folder = scratch("pictures");
+    let file = |name: &str| folder.join(name).to_string_lossy().into_owned();
+    let (svg, dot) = (file("map.svg"), file("map.dot"));
+    let output =
+        hssh(&["map", "fixtures/aces.ron", "--svg", &svg, "--dot", &dot, "--tree", &file("tree.svg")]);
+    assert_eq!(output.status.code(), Some(0));
+    for name in ["map.svg", "map-2.svg", "tree.svg"] {
+        let text = std::fs::read_to_string(folder.join(name)).unwrap();
+        assert!(text.contains("<svg") && text.trim_end().ends_with("</svg>"), "{name}");
+    }
+    for name in ["map.dot", "map-2.dot"] {
+        assert!(std::fs::read_to_string(folder.join(name)).unwrap().contains("graph"), "{name}");
+    }
+    assert!(!folder.join("map-3.svg").exists());
+}
+
+#[test]
+fn reads_standard_input() {
+    let text = std::fs::File::open(root().join("fixtures/aces.ron")).unwrap();
+    let program = Command::new(env!("CARGO_BIN_EXE_hssh"))
+        .args(["check", "-", "--json"])
+        .stdin(Stdio::from(text))
+        .output()
+        .unwrap();
+    let contents: serde_json::Value = serde_json::from_slice(&program.stdout).unwrap();
+    assert_eq!((&contents["travels"], &contents["travels_with_odometry"]), (&14.into(), &14.into()));
+}
+
+#[test]
+fn the_picture_in_the_readme_is_the_one_it_makes() {
+    let folder = scratch("readme");
+    let drawn = |name: &str| folder.join(name).to_string_lossy().into_owned();
+    let (map, tree) = (drawn("aces.svg"), drawn("aces-tree.svg"));
+    hssh(&["map", "fixtures/aces.ron", "--planar", "--svg", &map, "--tree", &tree]);
+    for name in ["aces.svg", "aces-tree.svg"] {
+        let shown = std::fs::read_to_string(root().join("docs/images").join(name)).unwrap();
+        assert_eq!(
+            std::fs::read_to_string(folder.join(name)).unwrap(),
+            shown,
+            "docs/images/{name} is out of date"
+        );
+    }
+}
