@@ -1,1 +1,33 @@
-//! Maps and search trees as SVG and DOT.
+//! Topological maps and search trees as pictures: SVG and Graphviz DOT.
+//!
+//! A [`Layout`] says where each place is drawn and which way each end of its star points, from measured
+//! poses or from the map alone. [`draw_map`] and [`map_to_dot`] draw one map, [`draw_tree`] and
+//! [`tree_to_dot`] a search tree in the manner of the thesis's Figure 2.5. Equal input gives equal text.
+//!
+//! ```
+//! use hssh_draw::{Bearings, Layout, MapOptions, draw_map};
+//! use hssh_topology::{Olp, Star, StarCatalog, TopologicalMap};
+//!
+//! let mut catalog = StarCatalog::new();
+//! let crossing: Star = "0+ 1+ 0- 1-".parse()?;
+//! let id = catalog.intern(&crossing);
+//! let mut map = TopologicalMap::new();
+//! let (west, east) = (map.add_place(id, &crossing), map.add_place(id, &crossing));
+//! map.link(map.olp(west, Olp(1)), map.olp(east, Olp(3)));
+//!
+//! let layout = Layout::schematic(&map, &Bearings::none())?;
+//! let options = MapOptions { current: Some(east), ..MapOptions::default() };
+//! assert!(draw_map(&map, &layout, &options).starts_with("<svg"));
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+
+mod curve;
+mod layout;
+mod map;
+mod palette;
+mod svg;
+mod tree;
+
+pub use layout::{Bearings, Layout, LayoutError};
+pub use map::{MapOptions, draw_map, map_to_dot};
+pub use tree::{Fate, SearchTree, Step, TreeError, TreeNode, TreeOptions, draw_tree, tree_to_dot};

@@ -1,0 +1,55 @@
+//! Links as smooth curves that leave and enter each place in the direction of the end, so that the drawn
+//! circular order is the star's.
+
+use hssh_topology::MapOlp;
+
+use crate::layout::Layout;
+use crate::svg::{Cubic, Point, toward};
+
+/// An end that looks farther away from the other end of its link than that (0: straight at it, 2: straight
+/// away) makes the link go around its own place.
+const LOOKS_AWAY: f64 = 1.4;
+/// How far from the circle of the place it does so, in units of a link.
+const DETOUR: f64 = 0.2;
+
+/// A point that a curve passes, and its direction there (a unit vector).
+#[derive(Clone, Copy)]
+struct Waypoint {
+    at: Point,
+    heading: Point,
+}
+
+/// The link between two gateways as Bézier curves, in units of the layout, from and to the circles of that
+/// radius around the two places.
+pub(crate) fn link_curve(layout: &Layout, from: MapOlp, to: MapOlp, radius: f64) -> Vec<Cubic> {
+    let (leaving, entering) = (toward(layout.direction(from)), toward(layout.direction(to)));
+    let (here, there) = (layout.position_of_end(from), layout.position_of_end(to));
+    let (start, end) = (here + radius * leaving, there + radius * entering);
+    let chord = (end - start).try_normalize(1e-9).unwrap_or(leaving);
+    let side = Point::new(-chord.y, chord.x);
+    let beside = |place: Point, lean: f64| {
+        let side = if lean < 0.0 { -side } else { side };
+        Waypoint { at: place + side * (radius + DETOUR * layout.unit()), heading: chord }
+    };
+
+    let mut way = vec![Waypoint { at: start, heading: leaving }];
+    if 1.0 - leaving.dot(&chord) > LOOKS_AWAY {
+        way.push(beside(here, leaving.dot(&side)));
+    }
+    if 1.0 + entering.dot(&chord) > LOOKS_AWAY && (way.len() == 1 || here != there) {
+        way.push(beside(there, entering.dot(&side)));
+    }
+    way.push(Waypoint { at: end, heading: -entering });
+    way.windows(2).map(|pair| cubic(pair[0], pair[1], layout.unit())).collect()
+}
+
+/// The curve between two points: straight if both look at each other, rounder the more they look away.
+fn cubic(start: Waypoint, end: Waypoint, unit: f64) -> Cubic {
+    let gap = end.at - start.at;
+    let chord = gap.try_normalize(1e-9).unwrap_or(start.heading);
+    let handle =
+        |heading: Point| gap.norm() / 3.0 + 0.22 * unit.min(2.0 * gap.norm()) * (1.0 - heading.dot(&chord));
+    let first = start.at + start.heading * handle(start.heading);
+    let last = end.at - end.heading * handle(end.heading);
+    [start.at, first, last, end.at]
+}

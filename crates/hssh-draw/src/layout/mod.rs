@@ -1,0 +1,158 @@
+//! Where the places of a map are drawn and which way the ends of their stars point.
+
+mod directions;
+mod relax;
+mod schematic;
+mod unfold;
+
+pub use directions::Bearings;
+
+use hssh_metrics::{Pose, SolveError};
+use hssh_topology::{MapOlp, PlaceId, StarId, TopologicalMap};
+use nalgebra::vector;
+
+use crate::svg::Point;
+
+/// A pose for each place of a map and a direction for each end of its stars.
+///
+/// x points right and y up, angles are radians, counterclockwise from the x axis. The unit of length is
+/// the caller's for a measured layout; in a schematic one a link is about 1 long.
+#[derive(Clone, PartialEq, Debug)]
+pub struct Layout {
+    /// By place.
+    poses: Vec<Pose>,
+    /// By oriented local path: the place it belongs to and its direction in that place's frame.
+    ends: Vec<(PlaceId, f64)>,
+    unit: f64,
+}
+
+/// Why there is no layout.
+#[derive(Clone, PartialEq, Debug, thiserror::Error)]
+pub enum LayoutError {
+    /// Another number of poses than places.
+    #[error("{given} poses were given for a map of {places} places: give one for each place, in order")]
+    PoseCount {
+        /// How many were given.
+        given: usize,
+        /// How many places there are.
+        places: usize,
+    },
+    /// NaN or infinite.
+    #[error("the pose given for place {} is not finite: {pose:?}", .place.0)]
+    NotFinite {
+        /// The place.
+        place: PlaceId,
+        /// Its pose.
+        pose: Pose,
+    },
+    /// Another number of bearings than ends.
+    #[error("star {} has {ends} ends but {given} bearings: give one for each end, clockwise, `None` if unknown", .star.0)]
+    BearingCount {
+        /// The star.
+        star: StarId,
+        /// How many ends it has.
+        ends: usize,
+        /// How many bearings were given.
+        given: usize,
+    },
+    /// Bearings that are no clockwise order.
+    #[error(
+        "the bearings of star {} do not go around clockwise, each end at a direction of its own: {bearings:?}",
+        .star.0
+    )]
+    NotClockwise {
+        /// The star.
+        star: StarId,
+        /// The bearings.
+        bearings: Vec<Option<f64>>,
+    },
+    /// The pose graph of a schematic layout has no solution.
+    #[error("no schematic layout: {0}")]
+    Solve(#[from] SolveError),
+}
+
+impl Layout {
+    /// The layout with these poses, one for each place in order: position and heading of the place's frame.
+    ///
+    /// # Errors
+    /// If there are more or fewer poses than places, if one is not finite, or if bearings contradict the
+    /// clockwise order of their star.
+    pub fn measured(
+        map: &TopologicalMap,
+        poses: Vec<Pose>,
+        bearings: &Bearings,
+    ) -> Result<Self, LayoutError> {
+        let (given, places) = (poses.len(), map.place_count() as usize);
+        if given != places {
+            return Err(LayoutError::PoseCount { given, places });
+        }
+        for (place, &pose) in map.places().zip(&poses) {
+            if !pose.is_finite() {
+                return Err(LayoutError::NotFinite { place, pose });
+            }
+        }
+        let ends = directions::of_map(map, bearings)?;
+        let unit = median_link_length(map, &poses);
+        Ok(Layout { poses, ends, unit })
+    }
+
+    /// A layout from the map alone: links about 1 long, paths as straight as they can be, places apart.
+    ///
+    /// Each link says that the far place lies one unit along the near end's direction, looking so that its
+    /// own end points back; all of them together are a pose graph, with the first place held at the origin.
+    /// If its solution puts places on each other, or does not exist because the map fits no plane, the
+    /// places are moved apart.
+    ///
+    /// # Errors
+    /// If bearings contradict the clockwise order of their star.
+    pub fn schematic(map: &TopologicalMap, bearings: &Bearings) -> Result<Self, LayoutError> {
+        let ends = directions::of_map(map, bearings)?;
+        let poses = schematic::poses(map, &ends)?;
+        Ok(Layout { poses, ends, unit: 1.0 })
+    }
+
+    /// Position and heading of a place.
+    ///
+    /// # Panics
+    /// If the place is not in the map that the layout was made for.
+    #[must_use]
+    pub fn pose(&self, place: PlaceId) -> Pose {
+        self.poses[place.index()]
+    }
+
+    /// The direction in which an end of a star leaves its place.
+    ///
+    /// # Panics
+    /// If the end is not in the map that the layout was made for.
+    #[must_use]
+    pub fn direction(&self, olp: MapOlp) -> f64 {
+        let (place, direction) = self.ends[olp.index()];
+        self.pose(place).theta + direction
+    }
+
+    /// How long a typical link is: the scale for everything drawn around a place.
+    #[must_use]
+    pub fn unit(&self) -> f64 {
+        self.unit
+    }
+
+    pub(crate) fn position(&self, place: PlaceId) -> Point {
+        self.pose(place).translation()
+    }
+
+    pub(crate) fn position_of_end(&self, olp: MapOlp) -> Point {
+        self.position(self.ends[olp.index()].0)
+    }
+}
+
+/// The median distance of linked places; 1 if no two linked places are apart.
+fn median_link_length(map: &TopologicalMap, poses: &[Pose]) -> f64 {
+    let at = |olp| {
+        let pose = poses[map.place(olp).index()];
+        vector![pose.x, pose.y]
+    };
+    let mut lengths: Vec<f64> = map.links().map(|(a, b)| (at(a) - at(b)).norm()).collect();
+    lengths.retain(|&length| length > 0.0);
+    lengths.sort_by(f64::total_cmp);
+    lengths.get(lengths.len() / 2).copied().unwrap_or(1.0)
+}

@@ -1,0 +1,55 @@
+//! One topological map as a picture.
+
+mod clearance;
+mod dot;
+mod figure;
+mod marks;
+
+pub(crate) use clearance::Obstacles;
+pub use dot::map_to_dot;
+pub(crate) use dot::quoted;
+pub use figure::draw_map;
+pub(crate) use marks::Scene;
+
+use hssh_topology::{Measure, PlaceId, StarId, TopologicalMap};
+
+/// What is drawn besides the map itself.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub struct MapOptions {
+    /// A line above the map.
+    pub title: Option<String>,
+    /// Where the robot is: marked with the little arrow of Figure 2.5.
+    pub current: Option<PlaceId>,
+    /// Names of the stars, by number; written beside the places that have them. Missing and empty names
+    /// are left out.
+    pub star_names: Vec<String>,
+    /// Whether to write a line below the map with its measure: f1, f2, f3, genus, pending gateways.
+    pub measure: bool,
+}
+
+impl Default for MapOptions {
+    fn default() -> Self {
+        MapOptions { title: None, current: None, star_names: Vec::new(), measure: true }
+    }
+}
+
+impl MapOptions {
+    fn star_name(&self, star: StarId) -> Option<&str> {
+        self.star_names.get(star.index()).map(String::as_str).filter(|name| !name.is_empty())
+    }
+}
+
+/// The measure of a map in one line.
+fn measure_line(map: &TopologicalMap) -> String {
+    let Measure { f1, f2, f3, genus } = Measure::of(map);
+    let counted = |count: u32, noun: &str| match count {
+        1 => format!("1 {noun}"),
+        _ => format!("{count} {noun}s"),
+    };
+    let closed = match map.pending_count() {
+        0 => "closed".to_owned(),
+        pending => format!("not closed: {}", counted(pending, "pending gateway")),
+    };
+    let (paths, places) = (counted(f2, "path"), counted(f3, "place"));
+    format!("f1 = {f1}  ·  f2 = {paths}  ·  f3 = {places}  ·  genus {genus}  ·  {closed}")
+}

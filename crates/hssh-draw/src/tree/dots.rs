@@ -1,0 +1,66 @@
+//! A search tree too large for little maps: nodes as dots, steps as lines of two kinds.
+
+use nalgebra::vector;
+
+use super::arrangement::Arrangement;
+use super::legend::{draw_levels, draw_notes, signs_note, text_size};
+use super::{Fate, SearchTree, Step, TreeNode};
+use crate::svg::{Canvas, Point, number};
+
+/// The room for a leaf, in pixels: little if there are very many.
+fn column_width(leaves: usize) -> f64 {
+    match leaves {
+        0..=60 => 20.0,
+        61..=200 => 13.0,
+        201..=800 => 8.0,
+        _ => 5.0,
+    }
+}
+
+pub(super) fn draw_dots(canvas: &mut Canvas, tree: &SearchTree, arrangement: &Arrangement) {
+    let column = column_width(arrangement.width);
+    let width = column * arrangement.width as f64;
+    let levels = arrangement.depth() + 1;
+    let row = (0.5 * width / levels as f64).clamp(30.0, 150.0);
+    let radius = 0.26 * column.min(14.0);
+    let ring = radius + text_size(width) / 3.0;
+    let at = |node: usize| vector![arrangement.columns[node] * column, arrangement.levels[node] as f64 * row];
+
+    let bands: Vec<(f64, f64)> = (0..levels).map(|level| (level as f64 * row, 0.5 * row)).collect();
+    draw_levels(canvas, tree.observations, &bands, -column, width);
+    for (index, node) in tree.nodes.iter().enumerate() {
+        if let Some((parent, step)) = node.parent {
+            let attributes = match step {
+                Step::Expand => r##"stroke="#777777" stroke-width="0.8""##,
+                Step::PredictedConsistent => r##"stroke="#0072b2" stroke-width="1" stroke-dasharray="3 2""##,
+            };
+            canvas.line(at(parent), at(index), attributes);
+        }
+    }
+    for (index, node) in tree.nodes.iter().enumerate() {
+        draw_dot(canvas, at(index), (radius, ring), node);
+    }
+    draw_notes(canvas, &signs_note(tree));
+}
+
+/// A node: a solid dot, a cross if it was refuted, an open square if axioms left it no successor, with a
+/// ring of its own radius around it if it is preferred.
+pub(super) fn draw_dot(canvas: &mut Canvas, at: Point, (radius, ring): (f64, f64), node: &TreeNode) {
+    match node.fate {
+        Fate::Alive => canvas.circle(at, radius, r##"fill="#222222""##),
+        Fate::Refuted => {
+            for corner in [vector![radius, radius], vector![radius, -radius]] {
+                canvas.line(at - corner, at + corner, r##"stroke="#c0392b" stroke-width="1.6""##);
+            }
+        }
+        Fate::Removed => {
+            let corner = vector![radius, radius];
+            let attributes = r##"fill="#ffffff" stroke="#8a6d00" stroke-width="1.3""##;
+            canvas.rectangle(at - corner, at + corner, attributes);
+        }
+    }
+    if node.is_optimal {
+        let width = number((ring - radius) * 0.55);
+        canvas.circle(at, ring, &format!(r##"stroke="#117733" stroke-width="{width}""##));
+    }
+}
