@@ -18,6 +18,9 @@ use crate::tree::{NodeId, Tree};
 /// The tree is cut below the first level with that many nodes, and each branch counted by itself.
 const BRANCHES: u32 = 512;
 
+/// How many branches are counted between two looks at a limit on nodes.
+const BRANCHES_UNDER_LIMIT: usize = 64;
+
 /// Nodes between two looks at the limits.
 const LOOK: u64 = 1 << 14;
 
@@ -54,7 +57,9 @@ pub fn count(
         Counting { levels: tally.levels, removals: tally.removals, ..Counting::new(preference, &watch) };
 
     let branches: Vec<NodeId> = top.fringe.clone().map(NodeId).collect();
-    for together in branches.chunks(4 * crew.threads()) {
+    // Under a limit on nodes, branches beyond it would be counted in vain.
+    let at_once = if limits.nodes.is_some() { BRANCHES_UNDER_LIMIT } else { branches.len().max(1) };
+    for together in branches.chunks(at_once) {
         if stop.is_some() {
             break;
         }

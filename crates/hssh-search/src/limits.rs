@@ -92,7 +92,7 @@ impl Monitor {
 pub(crate) struct Watch {
     monitor: Arc<Monitor>,
     deadline: Option<Instant>,
-    pub(crate) limits: Limits,
+    limits: Limits,
 }
 
 impl Watch {
@@ -108,6 +108,13 @@ impl Watch {
         }
         let late = self.deadline.is_some_and(|deadline| Instant::now() >= deadline);
         late.then_some(StopReason::TimeLimit)
+    }
+
+    /// The limits of a search that keeps its tree, which can number half of 2^32 nodes and what one
+    /// round of expansions adds.
+    pub(crate) fn for_tree(limits: Limits, monitor: &Arc<Monitor>) -> Self {
+        let most = limits.nodes.unwrap_or(u64::MAX).min(1 << 31);
+        Watch::start(Limits { nodes: Some(most), ..limits }, monitor)
     }
 
     /// Whether that many nodes or bytes are too many.

@@ -282,7 +282,7 @@ impl Mapper {
     pub fn advance(&mut self) -> StopReason {
         let started = Instant::now();
         let travels = self.experience.observations.len();
-        let watch = Watch::start(self.options.limits, &self.options.monitor);
+        let watch = Watch::for_tree(self.options.limits, &self.options.monitor);
         let MapperBuilder { axioms, preference, strategy, .. } = &self.options;
         let (knowledge, help) = ((&self.experience, axioms, *preference), (&self.crew, &watch));
         let is_news = std::mem::replace(&mut self.searched, travels) < travels;
