@@ -3,12 +3,11 @@
 
 use std::cmp::Reverse;
 
-use hssh_topology::{Axioms, Measure, Preference};
+use hssh_topology::Preference;
 
-use crate::crew::Crew;
-use crate::experience::Experience;
-use crate::frontier::{Frontier, Turn};
-use crate::limits::{StopReason, Watch};
+use crate::context::Context;
+use crate::frontier::{Frontier, Scored, Turn};
+use crate::limits::StopReason;
 use crate::mapper::Goal;
 use crate::report::Tally;
 use crate::tree::{NodeId, Tree};
@@ -28,9 +27,7 @@ pub(crate) struct BestFirst {
 
 impl BestFirst {
     pub(crate) fn new(goal: Goal, preference: Preference) -> Self {
-        let mut frontier = Frontier::default();
-        let rank = preference.rank(Measure::default());
-        frontier.push(Turn { rank, depth: Reverse(0), node: NodeId::ROOT, closed: false });
+        let frontier = Frontier::from_root(preference);
         BestFirst { goal, frontier, found: None, rejected: Vec::new() }
     }
 
@@ -50,47 +47,27 @@ impl BestFirst {
 
     /// Expands the best open hypothesis until the best one explains everything and, if asked for, is
     /// closed.
-    pub(crate) fn advance(
-        &mut self,
-        tree: &mut Tree,
-        (experience, axioms, preference): (&Experience, &Axioms, Preference),
-        (crew, watch): (&Crew, &Watch),
-        tally: &mut Tally,
-    ) -> StopReason {
-        let travels = experience.observations.len();
+    pub(crate) fn advance(&mut self, tree: &mut Tree, context: Context<'_>, tally: &mut Tally) -> StopReason {
         if self.found.is_some() {
             return StopReason::Found;
         }
         for expansions in 0_u64.. {
-            if expansions.is_multiple_of(LOOK) {
-                let bytes = tree.bytes() + self.frontier.bytes();
-                let stop = watch.interruption().or_else(|| watch.excess(tree.len() as u64, bytes));
-                if let Some(reason) = stop {
-                    return reason;
-                }
+            let look = expansions.is_multiple_of(LOOK);
+            if let Some(reason) = look.then(|| context.stop(tree, self.frontier.bytes())).flatten() {
+                return reason;
             }
             let Some(turn) = self.frontier.pop() else { break };
-            if turn.depth.0 as usize == travels {
-                if self.goal.accepts(turn.closed) {
-                    self.found = Some(turn);
-                    return StopReason::Found;
-                }
-                self.rejected.push(turn);
-                continue;
-            }
-            let expansion = self.frontier.expansion(turn.node, tree, (experience, axioms), crew);
-            tally.enter(turn.node, &expansion, tree);
-            watch.add_nodes(expansion.successors.len() as u64);
-            watch.explained(turn.depth.0 as usize);
-            for scored in expansion.successors {
-                let node = tree.push(scored.child);
+            if (turn.depth.0 as usize) < context.travels() {
                 let depth = Reverse(turn.depth.0 + 1);
-                self.frontier.push(Turn {
-                    rank: preference.rank(scored.measure),
-                    depth,
-                    node,
-                    closed: scored.closed,
-                });
+                for (node, Scored { measure, closed, .. }) in self.frontier.expand(turn, tree, context, tally)
+                {
+                    self.frontier.push(Turn { rank: context.preference.rank(measure), depth, node, closed });
+                }
+            } else if self.goal.accepts(turn.closed) {
+                self.found = Some(turn);
+                return StopReason::Found;
+            } else {
+                self.rejected.push(turn);
             }
         }
         StopReason::Exhausted

@@ -2,11 +2,12 @@
 
 use std::ops::Range;
 
-use hssh_topology::{Axioms, Preference, Removals};
+use hssh_topology::{Preference, Removals};
 
-use crate::crew::{Crew, expand};
+use crate::context::Context;
+use crate::crew::{Crew, Look, Scratch, expand};
 use crate::experience::Experience;
-use crate::limits::{StopReason, Watch};
+use crate::limits::StopReason;
 use crate::mapper::RankedMap;
 use crate::report::{FinalCounts, LevelCounts, Tally};
 use crate::tree::{Child, NodeId, Outcome, Tree};
@@ -43,8 +44,7 @@ impl BreadthFirst {
     pub(crate) fn grow(
         &mut self,
         tree: &mut Tree,
-        (experience, axioms): (&Experience, &Axioms),
-        (crew, watch): (&Crew, &Watch),
+        context: Context<'_>,
         tally: &mut Tally,
     ) -> Result<(), StopReason> {
         let (nodes, maps) = (tree.len(), tree.map_count());
@@ -53,36 +53,32 @@ impl BreadthFirst {
         let pieces = pieces(&self.fringe);
         for together in pieces.chunks(PIECES_AT_ONCE) {
             let before: &Tree = tree;
-            let grown = crew.map(together, experience, |cursor, piece| {
-                let mut grown =
-                    Grown { children: Vec::new(), outcomes: Vec::new(), removals: Removals::default() };
-                let mut extensions = Vec::new();
-                for node in piece.clone().map(NodeId) {
-                    let scratch = (&mut extensions, &mut grown.removals);
-                    let keep = |child, _: &_| grown.children.push(child);
-                    let outcome = expand(cursor, node, (before, experience, axioms), scratch, false, keep);
-                    grown.outcomes.push(outcome);
-                }
-                grown
+            let grown = context.crew.map(together, context.experience, |cursor, piece| {
+                let (mut children, mut scratch) = (Vec::new(), Scratch::default());
+                let mut grow = |node| {
+                    let keep = |child, _: &_| children.push(child);
+                    expand(cursor, node, before, context, &mut scratch, Look::Outside, keep)
+                };
+                let outcomes = piece.clone().map(|node| grow(NodeId(node))).collect();
+                Grown { children, outcomes, removals: scratch.removals }
             });
             for (piece, grown) in together.iter().zip(grown) {
                 for (node, outcome) in piece.clone().zip(grown.outcomes) {
                     tree.set_outcome(NodeId(node), outcome);
                     refuted += u64::from(outcome == Outcome::Refuted);
                 }
-                watch.add_nodes(grown.children.len() as u64);
+                context.watch.add_nodes(grown.children.len() as u64);
                 for child in grown.children {
                     tree.push(child);
                 }
                 removed += grown.removals;
             }
-            let stop = watch.interruption().or_else(|| watch.excess(tree.len() as u64, tree.bytes()));
-            if let Some(reason) = stop {
+            if let Some(reason) = context.stop(tree, 0) {
                 for node in self.fringe.clone() {
                     tree.set_outcome(NodeId(node), Outcome::Open);
                 }
                 tree.truncate(nodes, maps);
-                crew.recall();
+                context.crew.recall();
                 return Err(reason);
             }
         }
@@ -94,7 +90,7 @@ impl BreadthFirst {
         tally.levels.push(LevelCounts { nodes: made.0, maps: made.1, refuted: 0 });
         self.fringe = nodes as u32..tree.len() as u32;
         self.depth += 1;
-        watch.explained(self.depth);
+        context.watch.explained(self.depth);
         Ok(())
     }
 

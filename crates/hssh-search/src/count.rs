@@ -7,6 +7,7 @@ use std::time::Instant;
 use hssh_topology::{Axioms, Hypothesis, Preference, Removals};
 
 use crate::breadth_first::BreadthFirst;
+use crate::context::Context;
 use crate::crew::Crew;
 use crate::depth_first::{Visitor, depth_first};
 use crate::experience::Experience;
@@ -43,14 +44,15 @@ pub fn count(
     let started = Instant::now();
     let crew = Crew::new(threads)?;
     let watch = Watch::start(limits, monitor);
-    let travels = experience.observations.len();
+    let context = Context { experience, axioms, preference, crew: &crew, watch: &watch };
+    let travels = context.travels();
 
     let mut tree = Tree::new();
     let mut top = BreadthFirst::default();
     let mut tally = Tally::new();
     let mut stop = None;
     while stop.is_none() && top.depth < travels && top.fringe.len() < BRANCHES as usize {
-        stop = top.grow(&mut tree, (experience, axioms), (&crew, &watch), &mut tally).err();
+        stop = top.grow(&mut tree, context, &mut tally).err();
     }
     tally.levels.resize(travels + 1, LevelCounts::default());
     let mut total =

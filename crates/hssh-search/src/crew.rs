@@ -2,9 +2,10 @@
 
 use std::sync::Mutex;
 
-use hssh_topology::{Axioms, Derivation, Extension, Hypothesis, Removals};
+use hssh_topology::{Derivation, Extension, Hypothesis, MapOlp, Removals};
 use rayon::prelude::*;
 
+use crate::context::Context;
 use crate::experience::Experience;
 use crate::tree::{Child, Cursor, NodeId, Outcome, Tree};
 
@@ -62,38 +63,59 @@ impl Crew {
     }
 }
 
+/// What [`expand`] works with, kept from node to node.
+#[derive(Debug, Default)]
+pub(crate) struct Scratch {
+    extensions: Vec<Extension>,
+    /// What the axioms removed so far.
+    pub(crate) removals: Removals,
+}
+
+/// Which map [`expand`] shows with a successor.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(crate) enum Look {
+    /// The parent's.
+    Outside,
+    /// The successor's own.
+    Inside,
+}
+
 /// Applies the recursive step to a node of the tree and hands each successor to `each`, together
-/// with the hypothesis as it is in that successor's map.
+/// with the hypothesis in its parent's or its own map.
 pub(crate) fn expand(
     cursor: &mut Cursor,
     node: NodeId,
-    (tree, experience, axioms): (&Tree, &Experience, &Axioms),
-    (extensions, removals): (&mut Vec<Extension>, &mut Removals),
-    look_inside: bool,
+    tree: &Tree,
+    context: Context<'_>,
+    scratch: &mut Scratch,
+    look: Look,
     mut each: impl FnMut(Child, &Hypothesis),
 ) -> Outcome {
-    let observation = experience.observations[tree.depth(node)];
-    let hypothesis = cursor.go_to(node, tree, experience);
-    match hypothesis.step(observation, &experience.catalog, axioms, extensions, removals) {
+    let Experience { catalog, observations, .. } = context.experience;
+    let observation = observations[tree.depth(node)];
+    let hypothesis = cursor.go_to(node, tree, context.experience);
+    let Scratch { extensions, removals } = scratch;
+    match hypothesis.step(observation, catalog, context.axioms, extensions, removals) {
         Derivation::PredictedConsistent(arrival) => {
             each(Child { parent: node, arrival, growth: None }, hypothesis);
             Outcome::Predicted
         }
         Derivation::PredictedInconsistent => Outcome::Refuted,
         Derivation::Expand(exit) => {
-            let new_arrival = hssh_topology::MapOlp(hypothesis.map.olp_count() + observation.entry.0);
+            let new_arrival = MapOlp(hypothesis.map.olp_count() + observation.entry.0);
             for &extension in extensions.iter() {
                 let arrival = match extension {
                     Extension::NewPlace => new_arrival,
                     Extension::Closure(gateway) => gateway,
                 };
                 let child = Child { parent: node, arrival, growth: Some((exit, extension)) };
-                if look_inside {
-                    hypothesis.extend(exit, extension, observation, &experience.catalog);
-                    each(child, hypothesis);
-                    hypothesis.retract(extension);
-                } else {
-                    each(child, hypothesis);
+                match look {
+                    Look::Outside => each(child, hypothesis),
+                    Look::Inside => {
+                        hypothesis.extend(exit, extension, observation, catalog);
+                        each(child, hypothesis);
+                        hypothesis.retract(extension);
+                    }
                 }
             }
             Outcome::Expanded

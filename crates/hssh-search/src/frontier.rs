@@ -3,10 +3,11 @@
 use std::cmp::Reverse;
 use std::collections::{BTreeMap, BinaryHeap};
 
-use hssh_topology::{Axioms, Measure, Rank, Removals};
+use hssh_topology::{Measure, Preference, Rank, Removals};
 
-use crate::crew::{Crew, expand};
-use crate::experience::Experience;
+use crate::context::Context;
+use crate::crew::{Look, Scratch, expand};
+use crate::report::Tally;
 use crate::tree::{Child, Cursor, NodeId, Outcome, Tree};
 
 /// Nodes per thread that are expanded ahead of their turn.
@@ -49,6 +50,14 @@ pub(crate) struct Frontier {
 }
 
 impl Frontier {
+    /// The queue that starts at the root.
+    pub(crate) fn from_root(preference: Preference) -> Self {
+        let mut frontier = Frontier::default();
+        let rank = preference.rank(Measure::default());
+        frontier.push(Turn { rank, depth: Reverse(0), node: NodeId::ROOT, closed: false });
+        frontier
+    }
+
     pub(crate) fn push(&mut self, turn: Turn) {
         self.queue.push(Reverse(turn));
     }
@@ -65,46 +74,46 @@ impl Frontier {
         (self.queue.len() * size_of::<Turn>()) as u64
     }
 
-    /// The expansion of a node that has just been popped.
-    pub(crate) fn expansion(
+    /// Expands a node that has just been popped: its successors, which are in the tree then.
+    pub(crate) fn expand(
         &mut self,
-        node: NodeId,
-        tree: &Tree,
-        (experience, axioms): (&Experience, &Axioms),
-        crew: &Crew,
-    ) -> Expansion {
+        turn: Turn,
+        tree: &mut Tree,
+        context: Context<'_>,
+        tally: &mut Tally,
+    ) -> Vec<(NodeId, Scored)> {
+        let expansion = self.expansion(turn.node, tree, context);
+        tally.enter(turn.node, &expansion, tree);
+        context.watch.add_nodes(expansion.successors.len() as u64);
+        context.watch.explained(turn.depth.0 as usize);
+        expansion.successors.into_iter().map(|scored| (tree.push(scored.child), scored)).collect()
+    }
+
+    fn expansion(&mut self, node: NodeId, tree: &Tree, context: Context<'_>) -> Expansion {
         if let Some(expansion) = self.ahead.remove(&node) {
             return expansion;
         }
-        let travels = experience.observations.len();
         let mut nodes = vec![node];
-        if crew.threads() > 1 {
+        let threads = context.crew.threads();
+        if threads > 1 {
             // The first entries of a heap are among its best.
-            let soon = self
-                .queue
-                .iter()
-                .map(|Reverse(turn)| turn)
-                .filter(|turn| (turn.depth.0 as usize) < travels && !self.ahead.contains_key(&turn.node));
-            nodes.extend(soon.map(|turn| turn.node).take(AHEAD * crew.threads() - 1));
+            let soon = self.queue.iter().map(|Reverse(turn)| turn).filter(|turn| {
+                (turn.depth.0 as usize) < context.travels() && !self.ahead.contains_key(&turn.node)
+            });
+            nodes.extend(soon.map(|turn| turn.node).take(AHEAD * threads - 1));
         }
-        let expansions = crew
-            .map(&nodes, experience, |cursor, &node| expansion_of(cursor, node, tree, experience, axioms));
+        let expansions = context
+            .crew
+            .map(&nodes, context.experience, |cursor, &node| expansion_of(cursor, node, tree, context));
         self.ahead.extend(nodes.iter().copied().zip(expansions));
         self.ahead.remove(&node).expect("the node itself is the first of those expanded")
     }
 }
 
-fn expansion_of(
-    cursor: &mut Cursor,
-    node: NodeId,
-    tree: &Tree,
-    experience: &Experience,
-    axioms: &Axioms,
-) -> Expansion {
-    let travels_left = (experience.observations.len() - tree.depth(node) - 1) as u32;
-    let (mut successors, mut removals) = (Vec::new(), Removals::default());
-    let scratch = (&mut Vec::new(), &mut removals);
-    let outcome = expand(cursor, node, (tree, experience, axioms), scratch, true, |child, hypothesis| {
+fn expansion_of(cursor: &mut Cursor, node: NodeId, tree: &Tree, context: Context<'_>) -> Expansion {
+    let travels_left = (context.travels() - tree.depth(node) - 1) as u32;
+    let (mut successors, mut scratch) = (Vec::new(), Scratch::default());
+    let outcome = expand(cursor, node, tree, context, &mut scratch, Look::Inside, |child, hypothesis| {
         let map = &hypothesis.map;
         successors.push(Scored {
             child,
@@ -113,5 +122,5 @@ fn expansion_of(
             closed: map.is_closed(),
         });
     });
-    Expansion { outcome, successors, removals }
+    Expansion { outcome, successors, removals: scratch.removals }
 }

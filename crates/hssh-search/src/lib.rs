@@ -8,6 +8,7 @@
 mod best_first;
 mod branching;
 mod breadth_first;
+mod context;
 mod count;
 mod crew;
 mod depth_first;

@@ -11,6 +11,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::best_first::BestFirst;
 use crate::breadth_first::BreadthFirst;
+use crate::context::Context;
 use crate::crew::Crew;
 use crate::experience::Experience;
 use crate::limits::{Limits, Monitor, StopReason, Watch};
@@ -284,7 +285,13 @@ impl Mapper {
         let travels = self.experience.observations.len();
         let watch = Watch::for_tree(self.options.limits, &self.options.monitor);
         let MapperBuilder { axioms, preference, strategy, .. } = &self.options;
-        let (knowledge, help) = ((&self.experience, axioms, *preference), (&self.crew, &watch));
+        let context = Context {
+            experience: &self.experience,
+            axioms,
+            preference: *preference,
+            crew: &self.crew,
+            watch: &watch,
+        };
         let is_news = std::mem::replace(&mut self.searched, travels) < travels;
         let span = tracing::info_span!("search", strategy = strategy.name(), travels);
         let _entered = span.enter();
@@ -293,7 +300,7 @@ impl Mapper {
                 if search.depth == travels {
                     break StopReason::Exhausted;
                 }
-                let grown = search.grow(&mut self.tree, (&self.experience, axioms), help, &mut self.tally);
+                let grown = search.grow(&mut self.tree, context, &mut self.tally);
                 tracing::debug!(explained = search.depth, fringe = search.fringe.len(), "level");
                 if let Err(reason) = grown {
                     break reason;
@@ -303,7 +310,7 @@ impl Mapper {
                 if is_news {
                     search.reopen();
                 }
-                search.advance(&mut self.tree, knowledge, help, &mut self.tally)
+                search.advance(&mut self.tree, context, &mut self.tally)
             }
             Search::Proof(search) => {
                 if is_news {
@@ -313,7 +320,7 @@ impl Mapper {
                     (self.tree, self.tally) = (Tree::new(), Tally::new());
                     self.crew.recall();
                 }
-                search.advance(&mut self.tree, knowledge, help, &mut self.tally)
+                search.advance(&mut self.tree, context, &mut self.tally)
             }
         };
         self.seconds += started.elapsed().as_secs_f64();

@@ -7,16 +7,16 @@
 use std::cmp::Reverse;
 use std::fmt;
 
-use hssh_topology::{Axioms, Measure, Preference};
+use hssh_topology::{Hypothesis, Measure, Preference, Rank};
 use serde::Serialize;
 
-use crate::crew::Crew;
+use crate::context::Context;
 use crate::experience::Experience;
-use crate::frontier::{Frontier, Turn};
-use crate::limits::{StopReason, Watch};
+use crate::frontier::{Frontier, Scored, Turn};
+use crate::limits::StopReason;
 use crate::mapper::Goal;
 use crate::report::Tally;
-use crate::tree::{NodeId, Tree};
+use crate::tree::{Cursor, NodeId, Tree};
 
 /// Expansions between two looks at the limits.
 const LOOK: u64 = 128;
@@ -56,9 +56,7 @@ pub(crate) struct Proof {
 impl Proof {
     /// A search that starts at the root of a new tree.
     pub(crate) fn new(goal: Goal, preference: Preference) -> Self {
-        let mut frontier = Frontier::default();
-        let rank = preference.rank(Measure::default());
-        frontier.push(Turn { rank, depth: Reverse(0), node: NodeId::ROOT, closed: false });
+        let frontier = Frontier::from_root(preference);
         Proof { goal, frontier, best: None, optimal: Vec::new(), proved: false }
     }
 
@@ -69,7 +67,7 @@ impl Proof {
 
     pub(crate) fn certificate(&self, tree: &Tree, experience: &Experience, expanded: u64) -> Certificate {
         let open_bound = self.frontier.peek().map(|turn| {
-            let mut cursor = crate::Cursor::new(experience);
+            let mut cursor = Cursor::new(experience);
             let left = experience.observations.len() - turn.depth.0 as usize;
             Measure::bound(&cursor.go_to(turn.node, tree, experience).map, left as u32)
         });
@@ -77,53 +75,31 @@ impl Proof {
     }
 
     /// Expands the open hypothesis with the least bound until the answer is proved.
-    pub(crate) fn advance(
-        &mut self,
-        tree: &mut Tree,
-        (experience, axioms, preference): (&Experience, &Axioms, Preference),
-        (crew, watch): (&Crew, &Watch),
-        tally: &mut Tally,
-    ) -> StopReason {
-        let travels = experience.observations.len() as u32;
-        if travels == 0 {
-            self.offer(
-                NodeId::ROOT,
-                Measure::of(&crate::Cursor::new(experience).into_hypothesis().map),
-                preference,
-            );
-        }
+    pub(crate) fn advance(&mut self, tree: &mut Tree, context: Context<'_>, tally: &mut Tally) -> StopReason {
+        let (travels, preference) = (context.travels() as u32, context.preference);
         for expansions in 0_u64.. {
-            if expansions.is_multiple_of(LOOK) {
-                let bytes = tree.bytes() + self.frontier.bytes();
-                let stop = watch.interruption().or_else(|| watch.excess(tree.len() as u64, bytes));
-                if let Some(reason) = stop {
-                    return reason;
-                }
+            let look = expansions.is_multiple_of(LOOK);
+            if let Some(reason) = look.then(|| context.stop(tree, self.frontier.bytes())).flatten() {
+                return reason;
             }
-            let best = self.best.map(|best| preference.rank(best));
-            let promising =
-                self.frontier.peek().is_some_and(|turn| best.is_none_or(|best| turn.rank <= best));
+            let promising = self.frontier.peek().is_some_and(|turn| self.is_promising(turn.rank, preference));
             let Some(turn) = promising.then(|| self.frontier.pop()).flatten() else { break };
             if turn.depth.0 == travels {
+                // Maps that explain everything are never queued, but for the root if there is nothing to explain.
+                let root = Hypothesis::root(&context.experience.catalog, context.experience.start);
+                if self.goal.accepts(root.map.is_closed()) {
+                    self.offer(turn.node, Measure::of(&root.map), preference);
+                }
                 continue;
             }
-            let expansion = self.frontier.expansion(turn.node, tree, (experience, axioms), crew);
-            tally.enter(turn.node, &expansion, tree);
-            watch.add_nodes(expansion.successors.len() as u64);
-            watch.explained(turn.depth.0 as usize);
-            for scored in expansion.successors {
-                let node = tree.push(scored.child);
-                let depth = turn.depth.0 + 1;
-                if depth == travels {
-                    if self.goal.accepts(scored.closed) {
-                        self.offer(node, scored.measure, preference);
-                    }
-                    continue;
-                }
-                let rank = preference.rank(scored.bound);
-                let best = self.best.map(|best| preference.rank(best));
-                if best.is_none_or(|best| rank <= best) {
-                    self.frontier.push(Turn { rank, depth: Reverse(depth), node, closed: scored.closed });
+            let depth = turn.depth.0 + 1;
+            for (node, scored) in self.frontier.expand(turn, tree, context, tally) {
+                let Scored { measure, bound, closed, .. } = scored;
+                let rank = preference.rank(bound);
+                if depth < travels && self.is_promising(rank, preference) {
+                    self.frontier.push(Turn { rank, depth: Reverse(depth), node, closed });
+                } else if depth == travels && self.goal.accepts(closed) {
+                    self.offer(node, measure, preference);
                 }
             }
         }
@@ -131,16 +107,21 @@ impl Proof {
         if self.best.is_some() { StopReason::Proved } else { StopReason::Exhausted }
     }
 
+    /// Whether something of that rank may be as good as the best map found.
+    fn is_promising(&self, rank: Rank, preference: Preference) -> bool {
+        self.best.is_none_or(|best| rank <= preference.rank(best))
+    }
+
     /// A map that explains everything.
     fn offer(&mut self, node: NodeId, measure: Measure, preference: Preference) {
         let rank = preference.rank(measure);
-        let best = self.best.map(|best| preference.rank(best));
-        if best.is_none_or(|best| rank < best) {
+        if !self.is_promising(rank, preference) {
+            return;
+        }
+        if self.best.is_none_or(|best| rank < preference.rank(best)) {
             self.best = Some(measure);
             self.optimal.clear();
         }
-        if best.is_none_or(|best| rank <= best) {
-            self.optimal.push(node);
-        }
+        self.optimal.push(node);
     }
 }
