@@ -1,29 +1,45 @@
 //! Scripted experiments, benchmarks and checks.
+#![allow(clippy::print_stdout, clippy::print_stderr)] // a program reports on the terminal
 
 mod aces;
+mod bench;
+mod branching;
+mod ci;
+mod experiment;
+#[allow(unreachable_pub)] // generated
+mod flags;
+mod layers;
+mod root;
+mod table;
+mod tidy;
 
-use std::path::Path;
+use std::error::Error;
 use std::process::ExitCode;
 
+use flags::{Xtask, XtaskCmd};
+
 fn main() -> ExitCode {
-    let arguments: Vec<String> = std::env::args().skip(1).collect();
-    match &arguments.iter().map(String::as_str).collect::<Vec<_>>()[..] {
-        ["aces", data] => match aces::make(Path::new(data), Path::new("fixtures/aces.ron")) {
-            Ok(table) => {
-                #[allow(clippy::print_stdout)] // a program reports on the terminal
-                {
-                    println!("{table}");
-                }
-                ExitCode::SUCCESS
-            }
-            Err(error) => {
-                #[allow(clippy::print_stderr)] // a program reports on the terminal
-                {
-                    eprintln!("error: {error}");
-                }
-                ExitCode::FAILURE
-            }
-        },
-        _ => ExitCode::FAILURE,
+    match run(Xtask::from_env_or_exit().subcommand) {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(error) => {
+            eprintln!("error: {error}");
+            ExitCode::FAILURE
+        }
+    }
+}
+
+fn run(command: XtaskCmd) -> Result<(), Box<dyn Error>> {
+    match command {
+        XtaskCmd::Experiment(flags) => experiment::run(&flags),
+        XtaskCmd::Branching(flags) => branching::run(&flags),
+        XtaskCmd::Bench(flags) => bench::run(&flags),
+        XtaskCmd::Measure(flags) => bench::speed::measure(&flags),
+        XtaskCmd::Aces(flags) => {
+            let out = flags.out.unwrap_or_else(|| root::fixtures().join("aces.ron"));
+            println!("{}", aces::make(&flags.data, &out)?);
+            Ok(())
+        }
+        XtaskCmd::Tidy(_) => tidy::run(),
+        XtaskCmd::Ci(_) => ci::run(),
     }
 }

@@ -11,6 +11,7 @@ mod hypothesis;
 mod isomorphism;
 mod map;
 mod preference;
+mod replay;
 mod star;
 
 pub use axioms::{Axiom, Axioms, Removals};
@@ -22,4 +23,8 @@ pub use map::{
     BoundaryRelation, Course, Direction, MapOlp, PathId, PathSides, PlaceId, Region, TopologicalMap,
 };
 pub use preference::{GenusRank, Measure, Preference, Rank};
+pub use replay::{
+    Contradiction, Discovery, End, Malformed, MapSketch, Replay, ReplayedTravel, TracedPath, Violation,
+    replay, violations,
+};
 pub use star::{Olp, OlpName, Sign, Star, StarEnd, StarError, Travel};

@@ -92,7 +92,7 @@ fn counted(exploration: &Exploration, axioms: Axioms) -> Report {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(250))]
+    #![proptest_config(ProptestConfig::with_cases(1000))]
 
     #[test]
     fn all_mappers_agree((exploration, axioms) in case(400)) {

@@ -117,6 +117,12 @@ pub(crate) fn case(nodes: u64) -> impl Strategy<Value = (Exploration, Axioms)> {
         .prop_map(move |(exploration, axioms)| (shortened(&exploration, axioms, nodes), axioms))
 }
 
+/// The axioms, but perpendicularity only where no path may meet a place twice. Otherwise two paths that
+/// share two places may become one path, and a map that a search has discarded would be perpendicular.
+pub(crate) fn permanent(axioms: Axioms) -> Axioms {
+    Axioms { perpendicular: axioms.perpendicular && axioms.no_self_intersection, ..axioms }
+}
+
 /// A route through a grid of places.
 pub(crate) fn grid_walk(rows: u32, columns: u32, route: &[hssh_world::PlaceId]) -> Exploration {
     let world = grid(rows, columns, 8.0).unwrap();

@@ -1,6 +1,8 @@
 //! The searches against one another, against a naive mapper, and against independent checks of what
 //! they find.
 
+#![allow(clippy::unwrap_used, reason = "in tests a failed unwrap is the failed assertion")]
+
 mod agreement;
 mod cases;
 mod found;

@@ -30,7 +30,7 @@ fn timeless(mapper: &Mapper) -> Report {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(60))]
+    #![proptest_config(ProptestConfig::with_cases(240))]
 
     #[test]
     fn step_by_step((exploration, axioms) in case(1500)) {

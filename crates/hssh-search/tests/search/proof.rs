@@ -15,7 +15,7 @@ fn text(sketches: &[MapSketch]) -> BTreeSet<String> {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(150))]
+    #![proptest_config(ProptestConfig::with_cases(600))]
 
     #[test]
     fn a_proof_finds_exactly_the_optima((exploration, axioms) in case(2000)) {

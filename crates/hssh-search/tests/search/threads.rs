@@ -67,7 +67,7 @@ fn a_limit_on_nodes_stops_at_the_same_node() {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(30))]
+    #![proptest_config(ProptestConfig::with_cases(90))]
 
     #[test]
     fn random_explorations((exploration, axioms) in case(2000)) {

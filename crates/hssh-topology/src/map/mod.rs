@@ -3,8 +3,6 @@
 mod boundary;
 mod path;
 mod region;
-#[cfg(test)]
-mod tests;
 
 pub use boundary::{BoundaryRelation, PathSides};
 pub use path::{Course, Direction, PathId};

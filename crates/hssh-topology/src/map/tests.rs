@@ -1,1 +1,0 @@
-//! Maps against recounting from scratch.

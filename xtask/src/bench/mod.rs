@@ -1,0 +1,34 @@
+//! Timings of whole processes and of the structures that carry the search.
+
+mod faces;
+mod proof;
+pub(crate) mod speed;
+mod usage;
+
+use std::error::Error;
+use std::time::Duration;
+
+use crate::flags;
+
+/// `cargo xtask bench`.
+pub(crate) fn run(flags: &flags::Bench) -> Result<(), Box<dyn Error>> {
+    let runs = flags.runs.unwrap_or(5).max(1);
+    let limit = Duration::from_secs(flags.seconds.unwrap_or(60));
+    match flags.name.as_deref() {
+        Some("speed") => speed::run(runs),
+        Some("faces") => faces::run(runs),
+        Some("proof") => proof::run(limit),
+        None => {
+            speed::run(runs)?;
+            faces::run(runs)?;
+            proof::run(limit)
+        }
+        Some(other) => Err(format!("there is no benchmark `{other}`; there are: speed, faces, proof").into()),
+    }
+}
+
+/// The middle value, the lower one of two; 0 of nothing.
+fn median(mut values: Vec<f64>) -> f64 {
+    values.sort_by(f64::total_cmp);
+    values.get((values.len().max(1) - 1) / 2).copied().unwrap_or(0.0)
+}

@@ -1,0 +1,58 @@
+//! The command line: commands and their switches.
+
+use std::path::PathBuf;
+
+xflags::xflags! {
+    /// Scripted experiments, benchmarks and checks.
+    cmd xtask {
+        /// Runs scripted experiments (fixtures/experiments) and compares them with published values.
+        cmd experiment {
+            /// Which one: the name of its file without `.ron`.
+            optional name: String
+            /// All of them.
+            optional --all
+            /// With --all: those that take a quarter of a minute, too.
+            optional --slow
+            /// Fail if a value differs from the expected one.
+            optional --check
+            /// Print JSON instead of tables.
+            optional --json
+            /// Threads of each search, 0 for one per core; 1 if not given.
+            optional --threads count: usize
+            /// The folder with street networks; the environment variable HSSH_DATA if not given.
+            optional --data folder: PathBuf
+        }
+        /// Measures the branching factor with and without planarity beside equation (3.1).
+        cmd branching {
+            /// Print JSON instead of a table.
+            optional --json
+        }
+        /// Times the mapper: `speed`, `faces` or `proof`; all three if not given.
+        cmd bench {
+            /// Which one.
+            optional name: String
+            /// Runs of each measurement, of which the median counts; 5 if not given.
+            optional --runs count: usize
+            /// Seconds that one search with proof may take; 60 if not given.
+            optional --seconds count: u64
+        }
+        /// Runs one search of `bench speed` and prints its cost as JSON; `bench` starts this itself.
+        cmd measure {
+            /// Which search.
+            required name: String
+            /// Its threads.
+            required threads: usize
+        }
+        /// Makes fixtures/aces.ron from the laser log of the ACES building.
+        cmd aces {
+            /// The folder that contains `logs/`.
+            required data: PathBuf
+            /// Where to write it; fixtures/aces.ron if not given.
+            optional --out file: PathBuf
+        }
+        /// Checks what lints cannot: module sentences, file lengths, words, layers.
+        cmd tidy {}
+        /// Everything that has to pass before a change is taken.
+        cmd ci {}
+    }
+}
