@@ -1,11 +1,8 @@
 //! How long the searches take on the snake through the 4×4 grid, with the whole tree of section 3.4.
 
-use std::sync::Arc;
-
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
 use hssh_causal::Exploration;
-use hssh_search::{Experience, Goal, Limits, Mapper, Monitor, Strategy, count};
-use hssh_topology::{Axioms, Preference};
+use hssh_search::{Goal, Mapper, Strategy};
 use hssh_world::{grid, snake};
 
 /// Nodes of the complete tree without a bound on places.
@@ -20,24 +17,21 @@ fn snake_through_4x4() -> Exploration {
 /// The benchmarks.
 fn searches(criterion: &mut Criterion) {
     let exploration = snake_through_4x4();
-    let experience = Experience::from(&exploration);
-    let (axioms, preference) = (Axioms::default(), Preference::default());
     let mut group = criterion.benchmark_group("4x4");
     group.sample_size(10);
 
     group.throughput(Throughput::Elements(NODES));
     for threads in [1, 2] {
         group.bench_function(format!("exhaustive, threads {threads}"), |bencher| {
-            let monitor = Arc::new(Monitor::default());
             bencher.iter(|| {
-                let report = count(&experience, &axioms, preference, Limits::default(), threads, &monitor)
-                    .expect("the system gives threads");
+                let builder = Mapper::builder().threads(threads);
+                let report = builder.count(&exploration).expect("the system gives threads");
                 assert_eq!(report.nodes, NODES);
             });
         });
         group.bench_function(format!("breadth-first, threads {threads}"), |bencher| {
             bencher.iter(|| {
-                let builder = Mapper::builder().axioms(axioms).threads(threads);
+                let builder = Mapper::builder().threads(threads);
                 let mapper = builder.explain(&exploration).expect("the system gives threads");
                 assert_eq!(mapper.tree().len() as u64, NODES);
             });
@@ -46,7 +40,7 @@ fn searches(criterion: &mut Criterion) {
     group.throughput(Throughput::Elements(1));
     group.bench_function("with proof", |bencher| {
         bencher.iter(|| {
-            let builder = Mapper::builder().axioms(axioms).strategy(Strategy::Proof(Goal::AnyMap));
+            let builder = Mapper::builder().strategy(Strategy::Proof(Goal::AnyMap));
             builder.explain(&exploration).expect("the system gives threads").maps(2)
         });
     });

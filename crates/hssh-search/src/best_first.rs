@@ -6,7 +6,7 @@ use std::cmp::Reverse;
 use hssh_topology::Preference;
 
 use crate::context::Context;
-use crate::frontier::{Frontier, Scored, Turn};
+use crate::frontier::{Frontier, Order, Scored, Turn};
 use crate::limits::StopReason;
 use crate::mapper::Goal;
 use crate::report::Tally;
@@ -27,16 +27,18 @@ pub(crate) struct BestFirst {
 
 impl BestFirst {
     pub(crate) fn new(goal: Goal, preference: Preference) -> Self {
-        let frontier = Frontier::from_root(preference);
+        let frontier = Frontier::from_root(Order::Measure, preference);
         BestFirst { goal, frontier, found: None, rejected: Vec::new() }
     }
 
-    /// The map found; if there is none, those that explain everything but are not closed.
+    /// The map found, if there is one.
     pub(crate) fn maps(&self) -> Vec<NodeId> {
-        match self.found {
-            Some(turn) => vec![turn.node],
-            None => self.rejected.iter().map(|turn| turn.node).collect(),
-        }
+        self.found.iter().map(|turn| turn.node).collect()
+    }
+
+    /// How many maps explain everything but are not closed, where a closed one was asked for.
+    pub(crate) fn rejected(&self) -> u64 {
+        self.rejected.len() as u64
     }
 
     /// There is one more travel to explain: what explained all of them is open again.
@@ -59,9 +61,8 @@ impl BestFirst {
             let Some(turn) = self.frontier.pop() else { break };
             if (turn.depth.0 as usize) < context.travels() {
                 let depth = Reverse(turn.depth.0 + 1);
-                for (node, Scored { measure, closed, .. }) in self.frontier.expand(turn, tree, context, tally)
-                {
-                    self.frontier.push(Turn { rank: context.preference.rank(measure), depth, node, closed });
+                for (node, Scored { score, closed, .. }) in self.frontier.expand(turn, tree, context, tally) {
+                    self.frontier.push(Turn { rank: context.preference.rank(score), depth, node, closed });
                 }
             } else if self.goal.accepts(turn.closed) {
                 self.found = Some(turn);

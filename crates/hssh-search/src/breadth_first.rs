@@ -51,7 +51,12 @@ impl BreadthFirst {
         let mut removed = Removals::default();
         let mut refuted = 0;
         let pieces = pieces(&self.fringe);
+        let mut stop = None;
         for together in pieces.chunks(PIECES_AT_ONCE) {
+            stop = stop.or_else(|| context.watch.interruption());
+            if stop.is_some() {
+                break;
+            }
             let before: &Tree = tree;
             let grown = context.crew.map(together, context.experience, |cursor, piece| {
                 let (mut children, mut scratch) = (Vec::new(), Scratch::default());
@@ -73,16 +78,18 @@ impl BreadthFirst {
                 }
                 removed += grown.removals;
             }
-            if let Some(reason) = context.stop(tree, 0) {
-                for node in self.fringe.clone() {
-                    tree.set_outcome(NodeId(node), Outcome::Open);
-                }
-                tree.truncate(nodes, maps);
-                context.crew.recall();
-                return Err(reason);
+            stop = context.watch.excess(tree.len() as u64, tree.bytes());
+        }
+        if let Some(reason) = stop {
+            for node in self.fringe.clone() {
+                tree.set_outcome(NodeId(node), Outcome::Open);
             }
+            tree.truncate(nodes, maps);
+            context.crew.recall();
+            return Err(reason);
         }
         tally.removals += removed;
+        tally.expanded += self.fringe.len() as u64;
         if let Some(level) = tally.levels.last_mut() {
             level.refuted = refuted;
         }
@@ -108,7 +115,7 @@ impl BreadthFirst {
             let mut best: Vec<RankedMap> = Vec::new();
             for node in piece.clone().map(NodeId) {
                 let map = &cursor.go_to(node, tree, experience).map;
-                counts.count(map, preference);
+                counts.record(map, preference);
                 if keep > 0 {
                     best.push(RankedMap::of(node, map));
                 }

@@ -1,18 +1,14 @@
 //! Exhaustive counting: all that breadth-first counts, in memory that does not grow with the nodes.
 
 use std::ops::ControlFlow;
-use std::sync::Arc;
 use std::time::Instant;
 
-use hssh_topology::{Axioms, Hypothesis, Preference, Removals};
+use hssh_topology::{Hypothesis, Observation, Preference, Removals};
 
 use crate::breadth_first::BreadthFirst;
 use crate::context::Context;
-use crate::crew::Crew;
 use crate::depth_first::{Visitor, depth_first};
-use crate::experience::Experience;
-use crate::limits::{Limits, Monitor, StopReason, Watch};
-use crate::mapper::ThreadsError;
+use crate::limits::{StopReason, Watch};
 use crate::report::{FinalCounts, LevelCounts, Report, Tally};
 use crate::tree::{NodeId, Tree};
 
@@ -26,25 +22,9 @@ const BRANCHES_UNDER_LIMIT: usize = 64;
 const LOOK: u64 = 1 << 14;
 
 /// Goes through all hypotheses of an experience and counts them, keeping none.
-///
-/// A limit or an interruption ends the count early; the report then covers the branches that were
-/// counted to their end, in the order of the tree, and is the same for any number of threads if it
-/// was the limit on nodes.
-///
-/// # Errors
-/// If the operating system gives no threads.
-pub fn count(
-    experience: &Experience,
-    axioms: &Axioms,
-    preference: Preference,
-    limits: Limits,
-    threads: usize,
-    monitor: &Arc<Monitor>,
-) -> Result<Report, ThreadsError> {
+pub(crate) fn count(context: Context<'_>) -> Report {
     let started = Instant::now();
-    let crew = Crew::new(threads)?;
-    let watch = Watch::start(limits, monitor);
-    let context = Context { experience, axioms, preference, crew: &crew, watch: &watch };
+    let Context { experience, axioms, preference, crew, watch } = context;
     let travels = context.travels();
 
     let mut tree = Tree::new();
@@ -56,20 +36,24 @@ pub fn count(
     }
     tally.levels.resize(travels + 1, LevelCounts::default());
     let mut total =
-        Counting { levels: tally.levels, removals: tally.removals, ..Counting::new(preference, &watch) };
+        Counting { levels: tally.levels, removals: tally.removals, ..Counting::new(preference, watch) };
 
+    let top_expanded = u64::from(top.fringe.start);
     let branches: Vec<NodeId> = top.fringe.clone().map(NodeId).collect();
     // Under a limit on nodes, branches beyond it would be counted in vain.
-    let at_once = if limits.nodes.is_some() { BRANCHES_UNDER_LIMIT } else { branches.len().max(1) };
+    let at_once = if watch.limits_nodes() { BRANCHES_UNDER_LIMIT } else { branches.len().max(1) };
     for together in branches.chunks(at_once) {
         if stop.is_some() {
             break;
         }
         let counted = crew.map(together, experience, |cursor, &node| {
-            let mut counting = Counting::new(preference, &watch);
-            let hypothesis = cursor.go_to(node, &tree, experience);
-            let removals = depth_first(hypothesis, top.depth, experience, axioms, &mut counting);
-            counting.removals = removals;
+            let mut counting = Counting::new(preference, watch);
+            counting.stop = watch.interruption();
+            if counting.stop.is_none() {
+                let hypothesis = cursor.go_to(node, &tree, experience);
+                counting.removals = depth_first(hypothesis, top.depth, experience, axioms, &mut counting);
+                watch.add_nodes(LOOK - counting.until_look);
+            }
             counting
         });
         for branch in counted {
@@ -78,14 +62,11 @@ pub fn count(
                 total.merge(&branch);
             }
         }
-        if stop.is_some() {
-            crew.recall();
-        }
     }
     let nodes = total.nodes();
     let sum = |of: fn(&LevelCounts) -> u64| total.levels.iter().map(of).sum::<u64>();
     let (maps, refuted) = (sum(|level| level.maps), sum(|level| level.refuted));
-    Ok(Report {
+    Report {
         strategy: "exhaustive counting",
         stop: stop.unwrap_or(StopReason::Exhausted),
         travels: travels as u64,
@@ -93,14 +74,16 @@ pub fn count(
         nodes,
         maps,
         refuted,
-        expanded: nodes - total.finals.final_maps,
+        expanded: top_expanded + total.steps,
         finals: total.finals,
+        rejected: 0,
+        is_optimal: stop.is_none(),
         removals: total.removals,
         certificate: None,
         levels: total.levels,
         seconds: started.elapsed().as_secs_f64(),
         tree_bytes: tree.bytes(),
-    })
+    }
 }
 
 /// What is counted on the way.
@@ -111,6 +94,8 @@ struct Counting<'a> {
     preference: Preference,
     watch: &'a Watch,
     until_look: u64,
+    /// Nodes that the recursive step was applied to.
+    steps: u64,
     stop: Option<StopReason>,
 }
 
@@ -123,6 +108,7 @@ impl<'a> Counting<'a> {
             preference,
             watch,
             until_look: LOOK,
+            steps: 0,
             stop: None,
         }
     }
@@ -137,6 +123,7 @@ impl<'a> Counting<'a> {
         }
         self.finals.merge(&branch.finals, self.preference);
         self.removals += branch.removals;
+        self.steps += branch.steps;
     }
 
     fn level(&mut self, depth: usize) -> &mut LevelCounts {
@@ -164,11 +151,15 @@ impl Visitor for Counting<'_> {
         ControlFlow::Continue(())
     }
 
+    fn step(&mut self, _: &Hypothesis, _: Observation) {
+        self.steps += 1;
+    }
+
     fn refuted(&mut self, depth: usize) {
         self.level(depth).refuted += 1;
     }
 
     fn last(&mut self, hypothesis: &Hypothesis) {
-        self.finals.count(&hypothesis.map, self.preference);
+        self.finals.record(&hypothesis.map, self.preference);
     }
 }

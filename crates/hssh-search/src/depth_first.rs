@@ -9,7 +9,7 @@ use crate::experience::Experience;
 /// What is done at the nodes of a [`depth_first`] walk. Every method does nothing unless overridden.
 pub trait Visitor {
     /// A node that explains the first `depth` travels; `new_map` unless it shares its parent's map.
-    /// To break ends the walk.
+    /// To break ends the walk: no further node is visited.
     fn node(&mut self, depth: usize, new_map: bool) -> ControlFlow<()> {
         let _ = (depth, new_map);
         ControlFlow::Continue(())
@@ -40,8 +40,8 @@ enum Frame {
 }
 
 /// Visits every node from `hypothesis` down, which explains the first `depth` travels, in the order
-/// of creation of a breadth-first search cut down to one branch. The hypothesis is left as it was,
-/// unless the visitor ends the walk. The number of successors that each axiom removed.
+/// of creation of a breadth-first search cut down to one branch. The hypothesis is left as it was. The
+/// number of successors that each axiom removed.
 pub fn depth_first(
     hypothesis: &mut Hypothesis,
     depth: usize,
@@ -52,12 +52,14 @@ pub fn depth_first(
     let Experience { catalog, observations, .. } = experience;
     let mut removals = Removals::default();
     let mut stack: Vec<Frame> = Vec::new();
+    let mut ended = false;
     let mut extensions: Vec<Vec<Extension>> = vec![Vec::new(); observations.len().saturating_sub(depth)];
 
     loop {
         // Apply the next observation to the node that was just entered.
         let level = stack.len();
         match observations.get(depth + level) {
+            _ if ended => {}
             None => visitor.last(hypothesis),
             Some(&observation) => {
                 visitor.step(hypothesis, observation);
@@ -69,9 +71,7 @@ pub fn depth_first(
                     Derivation::PredictedConsistent(arrival) => {
                         hypothesis.arrive(arrival, observation.entry);
                         stack.push(Frame::Followed { before });
-                        if visitor.node(depth + level + 1, false).is_break() {
-                            return removals;
-                        }
+                        ended = visitor.node(depth + level + 1, false).is_break();
                         continue;
                     }
                 }
@@ -88,14 +88,13 @@ pub fn depth_first(
                         hypothesis.position = *before;
                         hypothesis.retract(extensions[level][*next - 1]);
                     }
-                    if let Some(&extension) = extensions[level].get(*next) {
+                    let left = if ended { &[] } else { &extensions[level][*next..] };
+                    if let Some(&extension) = left.first() {
                         *next += 1;
                         let observation = observations[depth + level];
                         let arrival = hypothesis.extend(*exit, extension, observation, catalog);
                         hypothesis.arrive(arrival, observation.entry);
-                        if visitor.node(depth + level + 1, true).is_break() {
-                            return removals;
-                        }
+                        ended = visitor.node(depth + level + 1, true).is_break();
                         break;
                     }
                 }

@@ -13,6 +13,9 @@ use crate::tree::{Child, Cursor, NodeId, Outcome, Tree};
 /// Nodes per thread that are expanded ahead of their turn.
 const AHEAD: usize = 16;
 
+/// Expansions per thread that wait for their turn at most.
+const WAITING: usize = 64 * AHEAD;
+
 /// An open hypothesis: the lower its rank the sooner its turn, then the deeper, then the older.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
 pub(crate) struct Turn {
@@ -22,13 +25,24 @@ pub(crate) struct Turn {
     pub(crate) closed: bool,
 }
 
+/// Which number of an open hypothesis decides its turn.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(crate) enum Order {
+    /// What its map measures.
+    Measure,
+    /// The least that any map grown from it can measure.
+    Bound,
+}
+
 /// A successor with what decides its turn.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Scored {
     pub(crate) child: Child,
-    pub(crate) measure: Measure,
-    pub(crate) bound: Measure,
+    /// Its measure if it explains everything or the order is that of measures, else its bound.
+    pub(crate) score: Measure,
     pub(crate) closed: bool,
+    /// Whether the travels that are left can use up its pending gateways.
+    pub(crate) closable: bool,
 }
 
 /// What the recursive step makes of a node.
@@ -43,16 +57,17 @@ pub(crate) struct Expansion {
 ///
 /// The order in which they are taken is that of one thread; more threads only compute in advance
 /// what will be asked for.
-#[derive(Debug, Default)]
+#[derive(Debug)]
 pub(crate) struct Frontier {
+    order: Order,
     queue: BinaryHeap<Reverse<Turn>>,
     ahead: BTreeMap<NodeId, Expansion>,
 }
 
 impl Frontier {
     /// The queue that starts at the root.
-    pub(crate) fn from_root(preference: Preference) -> Self {
-        let mut frontier = Frontier::default();
+    pub(crate) fn from_root(order: Order, preference: Preference) -> Self {
+        let mut frontier = Frontier { order, queue: BinaryHeap::new(), ahead: BTreeMap::new() };
         let rank = preference.rank(Measure::default());
         frontier.push(Turn { rank, depth: Reverse(0), node: NodeId::ROOT, closed: false });
         frontier
@@ -97,30 +112,42 @@ impl Frontier {
         let threads = context.crew.threads();
         if threads > 1 {
             // The first entries of a heap are among its best.
-            let soon = self.queue.iter().map(|Reverse(turn)| turn).filter(|turn| {
+            let most = AHEAD * threads;
+            let head = self.queue.iter().take(2 * most).map(|Reverse(turn)| turn);
+            let soon = head.filter(|turn| {
                 (turn.depth.0 as usize) < context.travels() && !self.ahead.contains_key(&turn.node)
             });
-            nodes.extend(soon.map(|turn| turn.node).take(AHEAD * threads - 1));
+            nodes.extend(soon.map(|turn| turn.node).take(most - 1));
         }
-        let expansions = context
-            .crew
-            .map(&nodes, context.experience, |cursor, &node| expansion_of(cursor, node, tree, context));
+        let order = self.order;
+        let expansions = context.crew.map(&nodes, context.experience, |cursor, &node| {
+            expansion_of(cursor, node, order, tree, context)
+        });
+        if self.ahead.len() > WAITING * threads {
+            self.ahead.clear(); // whatever is needed again is expanded again
+        }
         self.ahead.extend(nodes.iter().copied().zip(expansions));
         self.ahead.remove(&node).expect("the node itself is the first of those expanded")
     }
 }
 
-fn expansion_of(cursor: &mut Cursor, node: NodeId, tree: &Tree, context: Context<'_>) -> Expansion {
+fn expansion_of(
+    cursor: &mut Cursor,
+    node: NodeId,
+    order: Order,
+    tree: &Tree,
+    context: Context<'_>,
+) -> Expansion {
     let travels_left = (context.travels() - tree.depth(node) - 1) as u32;
     let (mut successors, mut scratch) = (Vec::new(), Scratch::default());
     let outcome = expand(cursor, node, tree, context, &mut scratch, Look::Inside, |child, hypothesis| {
         let map = &hypothesis.map;
-        successors.push(Scored {
-            child,
-            measure: Measure::of(map),
-            bound: Measure::bound(map, travels_left),
-            closed: map.is_closed(),
-        });
+        let score = match order {
+            Order::Bound if travels_left > 0 => Measure::bound(map, travels_left),
+            Order::Bound | Order::Measure => Measure::of(map),
+        };
+        let closable = map.pending_count() <= 2 * travels_left;
+        successors.push(Scored { child, score, closed: map.is_closed(), closable });
     });
     Expansion { outcome, successors, removals: scratch.removals }
 }

@@ -1,8 +1,8 @@
 //! The tree of all maps that explain an exploration, and the searches through it.
 //!
 //! [`Mapper`] takes one observation at a time and can be asked for its maps at any time. It searches
-//! breadth-first, best-first, or best-first with a proof that nothing better exists; [`count`] goes
-//! through the same tree depth-first in constant memory. All of them expand their frontier on any
+//! breadth-first, best-first, or best-first with a proof that nothing better exists;
+//! [`MapperBuilder::count`] goes through the same tree depth-first in constant memory. All of them expand their frontier on any
 //! number of threads with the same result in the same order.
 
 mod best_first;
@@ -22,12 +22,11 @@ mod report;
 mod tree;
 
 pub use branching::{BranchingSample, branching};
-pub use count::count;
 pub use depth_first::{Visitor, depth_first};
 pub use experience::Experience;
 pub use limits::{Limits, Monitor, StopReason};
 pub use mapper::{Goal, Mapper, MapperBuilder, ObservationError, RankedMap, Strategy, ThreadsError};
 pub use placement::{Placement, PlacementError, place_by_odometry};
 pub use proof::Certificate;
-pub use report::{FinalCounts, LevelCounts, Report};
+pub use report::{FinalCounts, LevelCounts, Levels, Report};
 pub use tree::{Cursor, Derived, NodeId, Outcome, Tree};

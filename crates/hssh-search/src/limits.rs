@@ -14,7 +14,8 @@ pub struct Limits {
     pub nodes: Option<u64>,
     /// Time for one call.
     pub time: Option<Duration>,
-    /// Bytes of the tree and the queue.
+    /// Bytes of the tree and of the queue. Successors that wait to be put into the tree, and the
+    /// one map that each thread works on, come on top.
     pub bytes: Option<u64>,
 }
 
@@ -22,6 +23,8 @@ pub struct Limits {
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum StopReason {
+    /// It has not begun: there are observations that it has not looked at.
+    NotSearched,
     /// The whole tree was searched.
     Exhausted,
     /// Best-first reached a map that explains everything.
@@ -49,6 +52,7 @@ impl StopReason {
 impl fmt::Display for StopReason {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.pad(match self {
+            StopReason::NotSearched => "not searched yet",
             StopReason::Exhausted => "searched everything",
             StopReason::Found => "found a map",
             StopReason::Proved => "proved the best map",
@@ -72,6 +76,11 @@ impl Monitor {
     /// Asks the search to stop soon, keeping what it knows.
     pub fn interrupt(&self) {
         self.stop.store(true, Ordering::Relaxed);
+    }
+
+    /// Takes back an interruption, so that the search can go on.
+    pub fn reset(&self) {
+        self.stop.store(false, Ordering::Relaxed);
     }
 
     /// Nodes made so far.
@@ -115,6 +124,11 @@ impl Watch {
     pub(crate) fn for_tree(limits: Limits, monitor: &Arc<Monitor>) -> Self {
         let most = limits.nodes.unwrap_or(u64::MAX).min(1 << 31);
         Watch::start(Limits { nodes: Some(most), ..limits }, monitor)
+    }
+
+    /// Whether there is a limit on nodes.
+    pub(crate) fn limits_nodes(&self) -> bool {
+        self.limits.nodes.is_some()
     }
 
     /// Whether that many nodes or bytes are too many.

@@ -12,12 +12,13 @@ use serde::{Deserialize, Serialize};
 use crate::best_first::BestFirst;
 use crate::breadth_first::BreadthFirst;
 use crate::context::Context;
+use crate::count::count;
 use crate::crew::Crew;
 use crate::experience::Experience;
 use crate::limits::{Limits, Monitor, StopReason, Watch};
 use crate::proof::Proof;
 use crate::report::{FinalCounts, Report, Tally};
-use crate::tree::{Cursor, NodeId, Outcome, Tree};
+use crate::tree::{Cursor, NodeId, Tree};
 
 /// What best-first is content with.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Default, Serialize, Deserialize)]
@@ -26,8 +27,8 @@ pub enum Goal {
     /// Any map that explains everything.
     #[default]
     AnyMap,
-    /// A closed map: if the best one is not, the search goes back (the thesis's backtracking,
-    /// section 3.4).
+    /// A closed map: if the best map that explains everything is not closed, the search goes back and
+    /// on with the next best hypothesis. This is the thesis's backtracking (section 3.4).
     ClosedMap,
 }
 
@@ -46,7 +47,8 @@ pub enum Strategy {
     BreadthFirst,
     /// The best hypothesis by preference first. It may miss the optimum.
     BestFirst(Goal),
-    /// The hypothesis with the least admissible bound first, until the answer is proved.
+    /// The hypothesis with the least admissible bound first, until the answer is proved. The bound
+    /// looks ahead to the last travel, so that the search starts anew when there is another one.
     Proof(Goal),
 }
 
@@ -190,6 +192,23 @@ impl MapperBuilder {
         Ok(mapper)
     }
 
+    /// Counts all hypotheses about an exploration and keeps none, in memory that does not grow with their
+    /// number. The strategy does not matter.
+    ///
+    /// A limit or an interruption ends the count early; the report then covers the branches of the
+    /// tree that were counted to their end, and is the same for any number of threads if it was the
+    /// limit on nodes.
+    ///
+    /// # Errors
+    /// If the operating system gives no threads.
+    pub fn count(self, exploration: &Exploration) -> Result<Report, ThreadsError> {
+        let experience = &Experience::from(exploration);
+        let crew = Crew::new(self.threads)?;
+        let watch = Watch::start(self.limits, &self.monitor);
+        let (axioms, preference) = (&self.axioms, self.preference);
+        Ok(count(Context { experience, axioms, preference, crew: &crew, watch: &watch }))
+    }
+
     fn resume(self, experience: Experience) -> Result<Mapper, ThreadsError> {
         let crew = Crew::new(self.threads)?;
         let search = Search::new(self.strategy, self.preference);
@@ -275,11 +294,13 @@ impl Mapper {
         usable(star, entry)?;
         let star = self.experience.catalog.intern(star);
         self.experience.observations.push(Observation { exit, entry, star });
+        self.stop = StopReason::NotSearched;
         Ok(())
     }
 
     /// Searches on until everything observed is explained, or a limit stops it. It may be called
-    /// again after a limit, to go on where it stopped.
+    /// again after a limit, with other [limits](Self::set_limits) or a [reset](Monitor::reset)
+    /// monitor, to go on where it stopped; breadth-first goes on from its last complete level.
     pub fn advance(&mut self) -> StopReason {
         let started = Instant::now();
         let travels = self.experience.observations.len();
@@ -317,7 +338,7 @@ impl Mapper {
                     // Bounds look ahead to the last travel: another one makes them all anew.
                     let Strategy::Proof(goal) = *strategy else { unreachable!("the search is a proof") };
                     *search = Proof::new(goal, *preference);
-                    (self.tree, self.tally) = (Tree::new(), Tally::new());
+                    (self.tree, self.tally, self.seconds) = (Tree::new(), Tally::new(), 0.0);
                     self.crew.recall();
                 }
                 search.advance(&mut self.tree, context, &mut self.tally)
@@ -325,6 +346,11 @@ impl Mapper {
         };
         self.seconds += started.elapsed().as_secs_f64();
         self.stop
+    }
+
+    /// Sets other limits, for the next [`advance`](Self::advance).
+    pub fn set_limits(&mut self, limits: Limits) {
+        self.options.limits = limits;
     }
 
     /// How many travels the maps explain: fewer than were observed if a limit stopped the search, and
@@ -346,6 +372,19 @@ impl Mapper {
         self.survey(most).1
     }
 
+    /// The account of the search so far.
+    #[must_use]
+    pub fn report(&self) -> Report {
+        self.answer(0).0
+    }
+
+    /// The account of the search and the best maps, for the price of one of them.
+    #[must_use]
+    pub fn answer(&self, most: usize) -> (Report, Vec<RankedMap>) {
+        let (finals, maps) = self.survey(most);
+        (self.report_on(finals), maps)
+    }
+
     fn survey(&self, most: usize) -> (FinalCounts, Vec<RankedMap>) {
         let preference = self.options.preference;
         let nodes = match &self.search {
@@ -360,7 +399,7 @@ impl Mapper {
         let mut maps: Vec<RankedMap> = Vec::new();
         for node in nodes {
             let map = &cursor.go_to(node, &self.tree, &self.experience).map;
-            counts.count(map, preference);
+            counts.record(map, preference);
             maps.push(RankedMap::of(node, map));
         }
         maps.sort_by_key(|map| (preference.rank(map.measure), map.node));
@@ -402,13 +441,10 @@ impl Mapper {
         &self.experience
     }
 
-    /// The account of the search so far.
-    #[must_use]
-    pub fn report(&self) -> Report {
+    fn report_on(&self, finals: FinalCounts) -> Report {
         let levels = self.tally.levels.clone();
         let nodes = levels.iter().map(|level| level.nodes).sum();
-        let expanded =
-            self.tree.nodes().filter(|&node| self.tree.outcome(node) != Outcome::Open).count() as u64;
+        let expanded = self.tally.expanded;
         Report {
             strategy: self.options.strategy.name(),
             stop: self.stop,
@@ -418,10 +454,19 @@ impl Mapper {
             maps: levels.iter().map(|level| level.maps).sum(),
             refuted: levels.iter().map(|level| level.refuted).sum(),
             expanded,
-            finals: self.survey(0).0,
+            finals,
+            rejected: match &self.search {
+                Search::BreadthFirst(_) => 0,
+                Search::BestFirst(search) => search.rejected(),
+                Search::Proof(search) => search.rejected(),
+            },
+            is_optimal: match self.stop {
+                StopReason::Exhausted => matches!(self.search, Search::BreadthFirst(_)),
+                stop => stop == StopReason::Proved,
+            },
             removals: self.tally.removals,
             certificate: match &self.search {
-                Search::Proof(search) => Some(search.certificate(&self.tree, &self.experience, expanded)),
+                Search::Proof(search) => Some(search.certificate(expanded)),
                 _ => None,
             },
             levels,

@@ -11,12 +11,11 @@ use hssh_topology::{Hypothesis, Measure, Preference, Rank};
 use serde::Serialize;
 
 use crate::context::Context;
-use crate::experience::Experience;
-use crate::frontier::{Frontier, Scored, Turn};
+use crate::frontier::{Frontier, Order, Scored, Turn};
 use crate::limits::StopReason;
 use crate::mapper::Goal;
 use crate::report::Tally;
-use crate::tree::{Cursor, NodeId, Tree};
+use crate::tree::{NodeId, Tree};
 
 /// Expansions between two looks at the limits.
 const LOOK: u64 = 128;
@@ -50,14 +49,28 @@ pub(crate) struct Proof {
     frontier: Frontier,
     best: Option<Measure>,
     optimal: Vec<NodeId>,
+    /// Maps that explain everything but are not closed, where closed ones were asked for.
+    rejected: u64,
+    /// The least rank that was too high to be queued.
+    least_left_out: Option<Rank>,
     proved: bool,
+    preference: Preference,
 }
 
 impl Proof {
     /// A search that starts at the root of a new tree.
     pub(crate) fn new(goal: Goal, preference: Preference) -> Self {
-        let frontier = Frontier::from_root(preference);
-        Proof { goal, frontier, best: None, optimal: Vec::new(), proved: false }
+        let frontier = Frontier::from_root(Order::Bound, preference);
+        Proof {
+            goal,
+            frontier,
+            best: None,
+            optimal: Vec::new(),
+            rejected: 0,
+            least_left_out: None,
+            proved: false,
+            preference,
+        }
     }
 
     /// All maps found that share the best rank.
@@ -65,13 +78,20 @@ impl Proof {
         self.optimal.clone()
     }
 
-    pub(crate) fn certificate(&self, tree: &Tree, experience: &Experience, expanded: u64) -> Certificate {
-        let open_bound = self.frontier.peek().map(|turn| {
-            let mut cursor = Cursor::new(experience);
-            let left = experience.observations.len() - turn.depth.0 as usize;
-            Measure::bound(&cursor.go_to(turn.node, tree, experience).map, left as u32)
-        });
-        Certificate { best: self.best, open_bound, expanded, proved: self.proved }
+    /// How many maps explain everything but are not closed, where closed ones were asked for.
+    pub(crate) fn rejected(&self) -> u64 {
+        self.rejected
+    }
+
+    pub(crate) fn certificate(&self, expanded: u64) -> Certificate {
+        let next = self.frontier.peek().map(|turn| turn.rank);
+        let open_bound = next.into_iter().chain(self.least_left_out).min();
+        Certificate {
+            best: self.best,
+            open_bound: open_bound.map(|rank| self.preference.measure(rank)),
+            expanded,
+            proved: self.proved,
+        }
     }
 
     /// Expands the open hypothesis with the least bound until the answer is proved.
@@ -82,24 +102,31 @@ impl Proof {
             if let Some(reason) = look.then(|| context.stop(tree, self.frontier.bytes())).flatten() {
                 return reason;
             }
-            let promising = self.frontier.peek().is_some_and(|turn| self.is_promising(turn.rank, preference));
+            let promising = self.frontier.peek().is_some_and(|turn| self.is_promising(turn.rank));
             let Some(turn) = promising.then(|| self.frontier.pop()).flatten() else { break };
             if turn.depth.0 == travels {
                 // Maps that explain everything are never queued, but for the root if there is nothing to explain.
                 let root = Hypothesis::root(&context.experience.catalog, context.experience.start);
                 if self.goal.accepts(root.map.is_closed()) {
-                    self.offer(turn.node, Measure::of(&root.map), preference);
+                    self.offer(turn.node, Measure::of(&root.map));
                 }
                 continue;
             }
             let depth = turn.depth.0 + 1;
-            for (node, scored) in self.frontier.expand(turn, tree, context, tally) {
-                let Scored { measure, bound, closed, .. } = scored;
-                let rank = preference.rank(bound);
-                if depth < travels && self.is_promising(rank, preference) {
+            for (node, Scored { score, closed, closable, .. }) in
+                self.frontier.expand(turn, tree, context, tally)
+            {
+                let rank = preference.rank(score);
+                if depth == travels && self.goal.accepts(closed) {
+                    self.offer(node, score);
+                } else if depth == travels {
+                    self.rejected += 1;
+                } else if !self.goal.accepts(closable) {
+                    continue;
+                } else if self.is_promising(rank) {
                     self.frontier.push(Turn { rank, depth: Reverse(depth), node, closed });
-                } else if depth == travels && self.goal.accepts(closed) {
-                    self.offer(node, measure, preference);
+                } else {
+                    self.least_left_out = self.least_left_out.into_iter().chain([rank]).min();
                 }
             }
         }
@@ -108,17 +135,17 @@ impl Proof {
     }
 
     /// Whether something of that rank may be as good as the best map found.
-    fn is_promising(&self, rank: Rank, preference: Preference) -> bool {
-        self.best.is_none_or(|best| rank <= preference.rank(best))
+    fn is_promising(&self, rank: Rank) -> bool {
+        self.best.is_none_or(|best| rank <= self.preference.rank(best))
     }
 
     /// A map that explains everything.
-    fn offer(&mut self, node: NodeId, measure: Measure, preference: Preference) {
-        let rank = preference.rank(measure);
-        if !self.is_promising(rank, preference) {
+    fn offer(&mut self, node: NodeId, measure: Measure) {
+        let rank = self.preference.rank(measure);
+        if !self.is_promising(rank) {
             return;
         }
-        if self.best.is_none_or(|best| rank < preference.rank(best)) {
+        if self.best.is_none_or(|best| rank < self.preference.rank(best)) {
             self.best = Some(measure);
             self.optimal.clear();
         }

@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-use hssh_topology::{Axiom, Measure, Preference, Rank, Removals, TopologicalMap};
+use hssh_topology::{Axiom, Measure, Preference, Removals, TopologicalMap};
 use serde::Serialize;
 
 use crate::frontier::Expansion;
@@ -34,13 +34,15 @@ impl std::ops::AddAssign for LevelCounts {
 pub(crate) struct Tally {
     pub(crate) levels: Vec<LevelCounts>,
     pub(crate) removals: Removals,
+    /// Nodes that the recursive step was applied to.
+    pub(crate) expanded: u64,
 }
 
 impl Tally {
     /// The root and its map.
     pub(crate) fn new() -> Self {
         let root = LevelCounts { nodes: 1, maps: 1, refuted: 0 };
-        Tally { levels: vec![root], removals: Removals::default() }
+        Tally { levels: vec![root], removals: Removals::default(), expanded: 0 }
     }
 
     /// A node was expanded; its successors are about to be added to the tree.
@@ -48,6 +50,7 @@ impl Tally {
         tree.set_outcome(node, expansion.outcome);
         let depth = tree.depth(node);
         self.removals += expansion.removals;
+        self.expanded += 1;
         self.levels[depth].refuted += u64::from(expansion.outcome == Outcome::Refuted);
         if expansion.successors.is_empty() {
             return;
@@ -74,13 +77,13 @@ pub struct FinalCounts {
     pub perpendicular: u64,
     /// How many share the best rank.
     pub optimal: u64,
-    /// What the best ones measure.
+    /// What the best ones measure; of their genera the least.
     pub best: Option<Measure>,
 }
 
 impl FinalCounts {
     /// Counts one more map.
-    pub fn count(&mut self, map: &TopologicalMap, preference: Preference) {
+    pub fn record(&mut self, map: &TopologicalMap, preference: Preference) {
         self.final_maps += 1;
         self.nearly_closed += u64::from(map.is_nearly_closed());
         if map.is_closed() {
@@ -102,13 +105,14 @@ impl FinalCounts {
     }
 
     fn compete(&mut self, measure: Measure, number: u64, preference: Preference) {
-        let best: Option<Rank> = self.best.map(|best| preference.rank(best));
         let rank = preference.rank(measure);
-        if best.is_none_or(|best| rank < best) {
-            self.best = Some(measure);
-            self.optimal = number;
-        } else if best == Some(rank) {
-            self.optimal += number;
+        match self.best.as_mut() {
+            Some(best) if preference.rank(*best) == rank => {
+                best.genus = best.genus.min(measure.genus);
+                self.optimal += number;
+            }
+            Some(best) if preference.rank(*best) < rank => {}
+            _ => (self.best, self.optimal) = (Some(measure), number),
         }
     }
 }
@@ -135,6 +139,10 @@ pub struct Report {
     /// Counts over the maps that explain what is explained.
     #[serde(flatten)]
     pub finals: FinalCounts,
+    /// Maps that explain everything but were turned down because a closed one was asked for.
+    pub rejected: u64,
+    /// Whether the best maps are known to be the best of all: whether nothing was left out.
+    pub is_optimal: bool,
     /// Successors that each axiom removed.
     pub removals: Removals,
     /// What best-first with proof proved.
@@ -159,7 +167,7 @@ impl fmt::Display for Report {
             ("nearly closed", finals.nearly_closed),
             ("closed", finals.closed),
             ("closed, perpendicular", finals.perpendicular),
-            ("optimal", finals.optimal),
+            (if self.is_optimal { "optimal" } else { "share the best rank" }, finals.optimal),
         ];
         for (name, count) in rows {
             writeln!(f, "  {name:<32}{count:>14}")?;
@@ -177,5 +185,22 @@ impl fmt::Display for Report {
             writeln!(f, "  certificate   {certificate}")?;
         }
         Ok(())
+    }
+}
+
+/// The levels of a report as a table, with what the search cost below it.
+#[derive(Clone, Copy, Debug)]
+pub struct Levels<'a>(pub &'a Report);
+
+impl fmt::Display for Levels<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        writeln!(f, "  {:>7}{:>14}{:>14}{:>14}", "travels", "nodes", "maps", "refuted")?;
+        for (travels, level) in self.0.levels.iter().enumerate() {
+            writeln!(f, "  {travels:>7}{:>14}{:>14}{:>14}", level.nodes, level.maps, level.refuted)?;
+        }
+        let Report { nodes, expanded, seconds, tree_bytes, .. } = *self.0;
+        let (per_second, per_node) = (nodes as f64 / seconds, tree_bytes as f64 / nodes as f64);
+        writeln!(f, "  {expanded} nodes expanded in {seconds:.3} s, {per_second:.0} nodes made a second")?;
+        writeln!(f, "  the tree takes {tree_bytes} bytes, {per_node:.1} a node")
     }
 }

@@ -19,7 +19,8 @@ pub struct Axioms {
     pub max_places: Option<u32>,
     /// Genus at most that: `Some(0)` is planarity, more is relaxed planarity (end of section 3.2).
     pub max_genus: Option<u32>,
-    /// "Qualitatively perpendicular": no two paths share two places, no three form a triangle.
+    /// "Qualitatively perpendicular": no two paths share two places, no three form a triangle. It is
+    /// meant for maps without self-intersection: with it, two paths that share two places may become one.
     pub perpendicular: bool,
     /// No place is both right and left of a path, and none on a path is beside it.
     pub consistent_boundaries: bool,
@@ -100,19 +101,26 @@ pub struct Removals {
 
 impl Removals {
     /// Counts one successor removed by `axiom`.
-    pub fn count(&mut self, axiom: Axiom) {
+    pub fn record(&mut self, axiom: Axiom) {
         *self.by_mut(axiom) += 1;
     }
 
     /// How many successors `axiom` removed.
     #[must_use]
-    pub fn by(mut self, axiom: Axiom) -> u64 {
-        *self.by_mut(axiom)
+    pub fn by(&self, axiom: Axiom) -> u64 {
+        match axiom {
+            Axiom::NoSelfIntersection => self.no_self_intersection,
+            Axiom::NoCircularPath => self.no_circular_path,
+            Axiom::MaxPlaces => self.max_places,
+            Axiom::MaxGenus => self.max_genus,
+            Axiom::Perpendicular => self.perpendicular,
+            Axiom::ConsistentBoundaries => self.consistent_boundaries,
+        }
     }
 
     /// How many successors were removed.
     #[must_use]
-    pub fn total(self) -> u64 {
+    pub fn total(&self) -> u64 {
         Axiom::ALL.into_iter().map(|axiom| self.by(axiom)).sum()
     }
 

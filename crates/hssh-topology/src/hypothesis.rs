@@ -91,13 +91,13 @@ impl Hypothesis {
         }
 
         match axioms.violated_by_new_place(&self.map) {
-            Some(axiom) => removals.count(axiom),
+            Some(axiom) => removals.record(axiom),
             None => extensions.push(Extension::NewPlace),
         }
         for other in self.map.pending_gateways() {
             if other != exit && self.looks_like(star, entry, other, catalog) {
                 match axioms.violated_by_closure(&self.map, exit, other) {
-                    Some(axiom) => removals.count(axiom),
+                    Some(axiom) => removals.record(axiom),
                     None => extensions.push(Extension::Closure(other)),
                 }
             }
@@ -107,7 +107,7 @@ impl Hypothesis {
                 self.extend(exit, extension, observation, catalog);
                 let violated = axioms.violated_by_boundaries(&self.map);
                 self.retract(extension);
-                violated.inspect(|&axiom| removals.count(axiom)).is_none()
+                violated.inspect(|&axiom| removals.record(axiom)).is_none()
             });
         }
         Derivation::Expand(exit)

@@ -84,6 +84,17 @@ impl Preference {
             GenusRank::Last => [f1, f2, f3, genus],
         })
     }
+
+    /// The measure of a rank; its genus is 0 if the genus does not count.
+    #[must_use]
+    pub fn measure(self, rank: Rank) -> Measure {
+        let Rank([a, b, c, d]) = rank;
+        let (f1, f2, f3, genus) = match self.genus {
+            GenusRank::Ignored | GenusRank::Last => (a, b, c, d),
+            GenusRank::First => (b, c, d, a),
+        };
+        Measure { f1, f2: f2 as u32, f3: f3 as u32, genus: genus as u32 }
+    }
 }
 
 impl fmt::Display for Measure {

@@ -235,8 +235,9 @@ impl fmt::Display for Star {
     }
 }
 
-/// Reads the short form: names in clockwise order separated by white space, a closed end in
-/// parentheses, a label after a colon: `0+ (1+) 0- 1-:door`.
+/// Reads the short form for use in code: names in clockwise order separated by white space, a closed
+/// end in parentheses, a label after a colon: `0+ (1+) 0- 1-:door`. Files of explorations spell the
+/// same out, `1+ closed` and `1- #door`, and have bearings beside it.
 impl FromStr for Star {
     type Err = StarError;
 

@@ -1,11 +1,14 @@
 //! The command line.
 
 use std::path::PathBuf;
+use std::sync::Arc;
 use std::time::Duration;
 
 use clap::{Args, Parser, Subcommand, ValueEnum};
-use hssh_search::{Goal, Limits, Strategy};
+use hssh_search::{Goal, Limits, Mapper, MapperBuilder, Monitor, Strategy};
 use hssh_topology::{Axioms, GenusRank, Preference};
+
+use crate::failure::Failure;
 
 /// Topological maps of places that look alike: all that explain an exploration, ranked and drawn.
 #[derive(Debug, Parser)]
@@ -37,10 +40,14 @@ pub(crate) struct MapOptions {
     /// List all maps.
     #[arg(long, conflicts_with = "top")]
     pub(crate) all: bool,
+    /// Print also what the search made of each travel, and its cost.
+    #[arg(long)]
+    pub(crate) levels: bool,
     /// Print one JSON object instead of tables.
     #[arg(long)]
     pub(crate) json: bool,
-    /// Draw the best map as SVG; further optimal maps that are listed get a number before the ending.
+    /// Draw the best map as SVG; further optimal maps that are listed get a number
+    /// before the ending.
     #[arg(long, value_name = "FILE")]
     pub(crate) svg: Option<PathBuf>,
     /// Draw the best map as Graphviz DOT.
@@ -101,7 +108,7 @@ pub(crate) struct SearchOptions {
     /// How to search.
     #[arg(long, value_enum, default_value_t = SearchKind::BreadthFirst, value_name = "HOW", help_heading = "Search")]
     pub(crate) search: SearchKind,
-    /// Best-first and proof accept closed maps only, and go back until they have one.
+    /// With best-first and proof: accept closed maps only, and go back until there is one.
     #[arg(long, help_heading = "Search")]
     pub(crate) closed: bool,
     /// Threads, 0 for one per core; the result does not depend on it.
@@ -139,7 +146,7 @@ pub(crate) struct SearchOptions {
     /// Stop after that many seconds.
     #[arg(long, value_name = "SECONDS", value_parser = seconds, help_heading = "Limits")]
     pub(crate) max_time: Option<Duration>,
-    /// Stop when the tree takes that many MiB.
+    /// Stop when the tree takes that many MiB; the program takes somewhat more.
     #[arg(long, value_name = "MIB", default_value_t = 4096, help_heading = "Limits")]
     pub(crate) max_memory: u64,
     /// Explain only the first N travels.
@@ -164,7 +171,7 @@ impl SearchOptions {
         }
     }
 
-    pub(crate) fn preference(&self) -> Preference {
+    fn preference(&self) -> Preference {
         let genus = match self.genus {
             None => GenusRank::Ignored,
             Some(GenusOption::First) => GenusRank::First,
@@ -174,17 +181,31 @@ impl SearchOptions {
     }
 
     /// The mapper's strategy; `None` if maps are only to be counted.
-    pub(crate) fn strategy(&self) -> Option<Strategy> {
+    pub(crate) fn strategy(&self) -> Result<Option<Strategy>, Failure> {
         let goal = if self.closed { Goal::ClosedMap } else { Goal::AnyMap };
         match self.search {
-            SearchKind::BreadthFirst => Some(Strategy::BreadthFirst),
-            SearchKind::BestFirst => Some(Strategy::BestFirst(goal)),
-            SearchKind::Proof => Some(Strategy::Proof(goal)),
-            SearchKind::Count => None,
+            SearchKind::BestFirst => Ok(Some(Strategy::BestFirst(goal))),
+            SearchKind::Proof => Ok(Some(Strategy::Proof(goal))),
+            SearchKind::BreadthFirst | SearchKind::Count if self.closed => Err(Failure::Usage(
+                "--closed goes with --search best-first and --search proof: the others find all maps, closed or not"
+                    .to_owned(),
+            )),
+            SearchKind::BreadthFirst => Ok(Some(Strategy::BreadthFirst)),
+            SearchKind::Count => Ok(None),
         }
     }
 
-    pub(crate) fn limits(&self) -> Limits {
+    /// How to search, but for the strategy.
+    pub(crate) fn builder(&self, monitor: &Arc<Monitor>) -> MapperBuilder {
+        Mapper::builder()
+            .axioms(self.axioms())
+            .preference(self.preference())
+            .limits(self.limits())
+            .threads(self.threads)
+            .monitor(Arc::clone(monitor))
+    }
+
+    fn limits(&self) -> Limits {
         Limits { nodes: self.max_nodes, time: self.max_time, bytes: Some(self.max_memory << 20) }
     }
 }

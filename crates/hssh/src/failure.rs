@@ -48,6 +48,10 @@ pub(crate) enum Failure {
     Placement(#[from] PlacementError),
     #[error("there is no map number {asked}: only {found} {explain} the exploration", explain = if *found == 1 { "map explains" } else { "maps explain" })]
     NoSuchRank { asked: u32, found: usize },
+    #[error(
+        "the replay disagrees with the search: {0}\nhelp: this is a bug in hssh; please report it with the exploration"
+    )]
+    Disagreement(String),
     #[error("{0}")]
     Usage(String),
     #[error("cannot print: {0}")]

@@ -2,6 +2,7 @@
 
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
+use std::thread::Thread;
 use std::time::Duration;
 
 use hssh_search::Monitor;
@@ -29,11 +30,22 @@ pub(crate) fn watched<T>(travels: usize, search: impl FnOnce(&Arc<Monitor>) -> T
     let done = AtomicBool::new(false);
     std::thread::scope(|scope| {
         let line = scope.spawn(|| show(&monitor, travels, &done));
-        let result = search(&monitor);
-        done.store(true, Ordering::Relaxed);
-        line.thread().unpark();
-        result
+        let _ending = Ending { done: &done, line: line.thread().clone() };
+        search(&monitor)
     })
+}
+
+/// Ends the progress line when the search is over, however it ends.
+struct Ending<'a> {
+    done: &'a AtomicBool,
+    line: Thread,
+}
+
+impl Drop for Ending<'_> {
+    fn drop(&mut self) {
+        self.done.store(true, Ordering::Relaxed);
+        self.line.unpark();
+    }
 }
 
 /// Shows how far the search is until it is done.

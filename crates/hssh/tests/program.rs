@@ -32,7 +32,7 @@ fn session(arguments: &[&str]) -> String {
 
 fn scratch(name: &str) -> PathBuf {
     let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join(name);
-    std::fs::create_dir_all(&folder).unwrap();
+    std::fs::create_dir_all(&folder).expect("the scratch folder can be made");
     folder
 }
 
@@ -83,6 +83,10 @@ fn says_what_is_wrong() {
         &["map", "fixtures/aces.ron", "--max-nodes", "20"],
         &["map", "fixtures/aces.ron", "--search", "count", "--max-nodes", "20"],
         &["map", "fixtures/aces.ron", "--search", "proof", "--max-time", "0"],
+        &["map", "fixtures/aces.ron", "--travels", "1", "--search", "best-first", "--closed"],
+        &["map", "fixtures/aces.ron", "--travels", "1", "--search", "proof", "--closed"],
+        &["map", "fixtures/aces.ron", "--closed"],
+        &["explain", "fixtures/aces.ron", "--max-places", "3"],
     ];
     insta::assert_snapshot!(cases.iter().map(|case| session(case)).collect::<Vec<_>>().join("\n"));
 }

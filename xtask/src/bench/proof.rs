@@ -1,11 +1,10 @@
 //! How much of the tree best-first with proof expands, and how far it goes.
 
 use std::error::Error;
-use std::sync::Arc;
 use std::time::Duration;
 
-use hssh_search::{Experience, Goal, Limits, Mapper, Monitor, Strategy, count};
-use hssh_topology::{Axioms, Preference};
+use hssh_search::{Goal, Limits, Mapper, Strategy};
+use hssh_topology::Axioms;
 use hssh_world::{grid, snake, thesis_3x4};
 
 use crate::table::{aligned, grouped};
@@ -72,10 +71,7 @@ fn row(case: &Case, limit: Duration) -> Result<Vec<String>, Box<dyn Error>> {
 
     let bound = max_places.map_or_else(String::new, |most| format!(" ≤ {most}"));
     let mut cells = vec![format!("{rows}×{columns}{}{bound}", if planar { " planar" } else { "" })];
-    let counted = complete.then(|| {
-        let (experience, monitor) = (Experience::from(&exploration), Arc::new(Monitor::default()));
-        count(&experience, &axioms, Preference::default(), Limits::default(), 1, &monitor)
-    });
+    let counted = complete.then(|| Mapper::builder().axioms(axioms).count(&exploration));
     match counted.transpose()? {
         Some(report) => cells.extend([grouped(report.expanded), format!("{:.3}", report.seconds)]),
         None => cells.extend(["–".to_owned(), "–".to_owned()]),

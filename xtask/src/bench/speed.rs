@@ -2,11 +2,10 @@
 
 use std::error::Error;
 use std::process::Command;
-use std::sync::Arc;
 use std::time::Instant;
 
-use hssh_search::{Experience, Mapper, Monitor, count};
-use hssh_topology::{Axioms, Preference};
+use hssh_search::Mapper;
+use hssh_topology::Axioms;
 use hssh_world::{grid, snake};
 use serde::{Deserialize, Serialize};
 
@@ -64,9 +63,7 @@ pub(crate) fn measure(flags: &flags::Measure) -> Result<(), Box<dyn Error>> {
         let mapper = Mapper::builder().axioms(case.axioms).threads(flags.threads).explain(&exploration)?;
         (mapper.tree().len() as u64, mapper.tree().bytes())
     } else {
-        let (experience, monitor) = (Experience::from(&exploration), Arc::new(Monitor::default()));
-        let (preference, limits) = (Preference::default(), Default::default());
-        let report = count(&experience, &case.axioms, preference, limits, flags.threads, &monitor)?;
+        let report = Mapper::builder().axioms(case.axioms).threads(flags.threads).count(&exploration)?;
         (report.nodes, report.tree_bytes)
     };
     let Usage { user_seconds, peak_bytes } = Usage::now()?;

@@ -2,9 +2,8 @@
 
 use std::error::Error;
 use std::path::Path;
-use std::sync::Arc;
 
-use hssh_search::{Experience, Mapper, Monitor, Report, StopReason, count};
+use hssh_search::{Experience, Mapper, Report, StopReason};
 use hssh_topology::{Hypothesis, Measure};
 use serde::Serialize;
 
@@ -80,20 +79,17 @@ pub(crate) fn outcome(run: &Run, data: Option<&Path>, threads: usize) -> Result<
         }
         Err(Missing::Error(error)) => return Err(format!("{name}: {error}").into()),
     };
-    let experience = Experience::from(&case.exploration);
-    let monitor = Arc::new(Monitor::default());
+    let builder = Mapper::builder().axioms(run.axioms).preference(run.preference).threads(threads);
+    let builder = builder.limits(run.limits.into());
     let (report, mapper) = match run.search.strategy() {
-        None => {
-            let limits = run.limits.into();
-            (count(&experience, &run.axioms, run.preference, limits, threads, &monitor)?, None)
-        }
+        None => (builder.count(&case.exploration)?, None),
         Some(strategy) => {
-            let builder = Mapper::builder().axioms(run.axioms).preference(run.preference).threads(threads);
-            let mapper = builder.strategy(strategy).limits(run.limits.into()).explain(&case.exploration)?;
+            let mapper = builder.strategy(strategy).explain(&case.exploration)?;
             (mapper.report(), Some(mapper))
         }
     };
-    let truth = case.visits.map(|visits| true_hypothesis(&experience, &visits, &run.axioms));
+    let truth =
+        case.visits.map(|visits| true_hypothesis(&Experience::from(&case.exploration), &visits, &run.axioms));
     let true_map = truth
         .filter(|_| report.stop.is_complete())
         .map(|truth| verdict(run, truth.as_ref(), &report, mapper.as_ref()));
@@ -185,6 +181,7 @@ fn values(expected: &Expected) -> Vec<(&'static str, String)> {
 /// How a search ended, in the width of a number.
 fn ending(stop: StopReason) -> &'static str {
     match stop {
+        StopReason::NotSearched => "not searched",
         StopReason::Exhausted => "complete",
         StopReason::Found => "found",
         StopReason::Proved => "proved",

@@ -4,8 +4,8 @@ use std::collections::BTreeSet;
 
 use hssh_causal::Exploration;
 use hssh_oracle::{Axiom as NaiveAxiom, Enumeration, FinalMap, Path, enumerate};
-use hssh_search::{Experience, FinalCounts, Limits, Mapper, Report, StopReason, count};
-use hssh_topology::{Axiom, Axioms, End, MapSketch, Olp, PlaceId, Preference};
+use hssh_search::{FinalCounts, Mapper, Report, StopReason};
+use hssh_topology::{Axiom, Axioms, End, MapSketch, Olp, PlaceId};
 use proptest::prelude::*;
 
 use crate::cases::{breadth_first, case, last_nodes, rules, sketch};
@@ -86,9 +86,7 @@ fn compare_maps(mapper: &Mapper, naive: &Enumeration, exploration: &Exploration)
 }
 
 fn counted(exploration: &Exploration, axioms: Axioms) -> Report {
-    let experience = Experience::from(exploration);
-    let (preference, limits) = (Preference::default(), Limits::default());
-    count(&experience, &axioms, preference, limits, 1, &Default::default()).unwrap()
+    Mapper::builder().axioms(axioms).count(exploration).unwrap()
 }
 
 proptest! {

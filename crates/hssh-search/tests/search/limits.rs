@@ -4,11 +4,8 @@ use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 use hssh_causal::Exploration;
-use hssh_search::{
-    Experience, FinalCounts, Goal, Limits, Mapper, MapperBuilder, Monitor, Report, StopReason, Strategy,
-    count,
-};
-use hssh_topology::{Axioms, Preference};
+use hssh_search::{FinalCounts, Goal, Limits, Mapper, MapperBuilder, Monitor, Report, StopReason, Strategy};
+use hssh_topology::Axioms;
 use hssh_world::snake;
 
 use crate::cases::{grid_walk, planar, sketches};
@@ -26,8 +23,7 @@ fn search(strategy: Strategy, limits: Limits) -> Mapper {
 }
 
 fn counted(limits: Limits, monitor: &Arc<Monitor>) -> Report {
-    let (experience, preference) = (Experience::from(&walk()), Preference::default());
-    count(&experience, &Axioms::default(), preference, limits, 1, monitor).unwrap()
+    Mapper::builder().limits(limits).monitor(monitor.clone()).count(&walk()).unwrap()
 }
 
 /// What breadth-first shows after a limit is what it shows of the beginning that it explains.

@@ -1,16 +1,15 @@
 //! The table of Figure 3.3.
 
 use hssh_causal::Exploration;
-use hssh_search::{Experience, count};
-use hssh_topology::{Axioms, Preference};
+use hssh_search::Mapper;
+use hssh_topology::Axioms;
 use hssh_world::{snake, thesis_3x4};
 
 use crate::cases::{grid_walk, planar};
 
 /// Nodes, maps, final maps, the table's closed ones, closed, closed and perpendicular, optimal.
 fn column(exploration: &Exploration, axioms: Axioms) -> [u64; 7] {
-    let (experience, preference) = (Experience::from(exploration), Preference::default());
-    let report = count(&experience, &axioms, preference, Default::default(), 2, &Default::default()).unwrap();
+    let report = Mapper::builder().axioms(axioms).threads(2).count(exploration).unwrap();
     let finals = report.finals;
     let (all, nearly, closed) = (finals.final_maps, finals.nearly_closed, finals.closed);
     [report.nodes, report.maps, all, nearly, closed, finals.perpendicular, finals.optimal]

@@ -1,8 +1,8 @@
 //! The number of threads changes nothing but the time.
 
 use hssh_causal::Exploration;
-use hssh_search::{Experience, Goal, Limits, Mapper, Report, Strategy, count};
-use hssh_topology::{Axioms, Preference};
+use hssh_search::{Goal, Limits, Mapper, Report, Strategy};
+use hssh_topology::Axioms;
 use hssh_world::{snake, thesis_3x4};
 use proptest::prelude::*;
 
@@ -21,10 +21,9 @@ fn timeless(report: Report) -> Report {
 }
 
 fn threads_change_nothing(exploration: &Exploration, axioms: Axioms, limits: Limits) {
-    let experience = Experience::from(exploration);
     let counted = |threads| {
-        let preference = Preference::default();
-        timeless(count(&experience, &axioms, preference, limits, threads, &Default::default()).unwrap())
+        let builder = Mapper::builder().axioms(axioms).limits(limits).threads(threads);
+        timeless(builder.count(exploration).unwrap())
     };
     let alone = counted(1);
     assert!([2, 3].into_iter().all(|threads| counted(threads) == alone));

@@ -88,7 +88,8 @@ impl EmbeddedGraph {
         let walks = self.trace_walks();
         let without_darts = self.vertices().filter(|&v| self.darts_of(v).len() == 0).count();
         self.counts.faces_and_isolated = walks + without_darts as u32;
-        self.counts.next_face = walks;
+        // Every vertex has taken a label when it is removed again.
+        self.counts.next_face = self.counts.faces_and_isolated.max(self.vertex_count());
     }
 
     /// Walks along every face and around every isolated vertex, and strings the pending edges met

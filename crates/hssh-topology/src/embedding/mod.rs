@@ -64,7 +64,7 @@ impl Dart {
 /// graph.link(Dart(1), Dart(3)); // crosses it
 /// assert_eq!((graph.face_count(), graph.genus()), (1, 1)); // the torus
 /// ```
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug)]
 pub struct EmbeddedGraph {
     /// The first dart of each vertex, and one more entry that ends the last vertex.
     first: Vec<u32>,
@@ -123,11 +123,24 @@ pub enum EmbeddingError {
     LinkedTwice(u32),
 }
 
+impl Default for EmbeddedGraph {
+    fn default() -> Self {
+        EmbeddedGraph::new()
+    }
+}
+
 impl EmbeddedGraph {
     /// The empty graph.
     #[must_use]
     pub fn new() -> Self {
-        EmbeddedGraph { first: vec![0], ..EmbeddedGraph::default() }
+        EmbeddedGraph {
+            first: vec![0],
+            degree: Vec::new(),
+            darts: Vec::new(),
+            components: Components::default(),
+            counts: Counts::default(),
+            pending_ends: None,
+        }
     }
 
     /// A graph from the degrees of its vertices and the pairs of darts that form its edges, in

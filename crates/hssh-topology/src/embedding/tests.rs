@@ -64,6 +64,18 @@ fn parallel_edges_and_isolated_vertices() {
 }
 
 #[test]
+fn a_vertex_without_darts_comes_and_goes() {
+    let mut graph = EmbeddedGraph::from_links([4, 0, 0], []).unwrap();
+    let link = graph.link(Dart(0), Dart(2));
+    graph.sanity_check();
+    graph.unlink(link);
+    for _ in 0..3 {
+        graph.remove_last_vertex();
+    }
+    assert_eq!((graph.vertex_count(), graph.face_count()), (0, 0));
+}
+
+#[test]
 fn refuses_impossible_links() {
     let error = |links: &[(u32, u32)]| {
         EmbeddedGraph::from_links([2, 2], links.iter().map(|&(a, b)| (Dart(a), Dart(b)))).unwrap_err()

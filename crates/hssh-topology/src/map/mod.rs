@@ -106,7 +106,7 @@ impl TopologicalMap {
     /// The map without places.
     #[must_use]
     pub fn new() -> Self {
-        TopologicalMap { graph: EmbeddedGraph::new(), ..TopologicalMap::default() }
+        TopologicalMap::default()
     }
 
     /// Adds a place with that star, its gateways pending, each of its local paths a path of its own.
@@ -159,6 +159,8 @@ impl TopologicalMap {
         let (Some(dart_a), Some(dart_b)) = (self.dart(a), self.dart(b)) else {
             panic!("a closed end cannot be linked");
         };
+        let pending = self.is_pending(a) && self.is_pending(b) && a != b;
+        assert!(pending, "only two different pending gateways are linked");
         let tally = self.tally;
         let boundaries = self.boundaries.mark();
         if self.path(a) == self.path(b) {
@@ -354,7 +356,11 @@ impl TopologicalMap {
         olps.filter_map(|olp| self.linked(olp).filter(|&other| olp < other).map(|other| (olp, other)))
     }
 
-    /// Whether two pending gateways lie in the same face, so that linking them keeps the genus.
+    /// Whether two pending gateways lie in the same face, so that linking them keeps the genus. A
+    /// closed end lies in none.
+    ///
+    /// # Panics
+    /// If one of them is linked.
     #[must_use]
     pub fn share_face(&self, a: MapOlp, b: MapOlp) -> bool {
         match (self.dart(a), self.dart(b)) {

@@ -7,7 +7,7 @@ use super::{MapOlp, PathId, PlaceId, TopologicalMap};
 /// A part of the environment enclosed by travels: a face of the embedded graph.
 #[derive(Clone, PartialEq, Eq, Debug, Serialize)]
 pub struct Region {
-    /// The walk around the region with its boundary to the right: the gateways left on the way.
+    /// The walk around the region, which lies on its right: the gateways left on the way.
     pub walk: Vec<MapOlp>,
     /// The places on the boundary, ascending.
     pub places: Vec<PlaceId>,

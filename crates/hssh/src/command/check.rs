@@ -63,7 +63,7 @@ pub(crate) fn run(options: &CheckOptions) -> Result<Status, Failure> {
     );
     let width = contents.star_types.iter().map(|star| star.name.chars().count()).max().unwrap_or(0);
     for star in &contents.star_types {
-        text += &format!("  {:<width$}  seen {:>3} times  {}\n", star.name, star.visits, star.star);
+        text += &format!("  {:<width$}  {:>3} ×  {}\n", star.name, star.visits, star.star);
     }
     print(&text)?;
     Ok(Status::Found)

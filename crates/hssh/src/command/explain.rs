@@ -27,17 +27,20 @@ struct Explanation {
 pub(crate) fn run(options: &ExplainOptions) -> Result<Status, Failure> {
     let exploration = read_exploration(&options.file)?;
     let exploration = exploration.prefix(options.search.travels.unwrap_or(usize::MAX));
-    if options.search.strategy().is_none() {
+    let Some(strategy) = options.search.strategy()? else {
         return Err(Failure::Usage("counting keeps no maps to explain: choose another --search".to_owned()));
-    }
-    let mapper = search(&options.search, &exploration)?;
-    let report = mapper.report();
+    };
+    let mapper = search(&options.search, strategy, &exploration)?;
+    let (report, maps) = mapper.answer(options.rank as usize);
     let status = status_of(&report);
     if report.finals.final_maps == 0 {
-        print("No map explains the exploration.\n")?;
+        if options.json {
+            print_json(&report)?;
+        } else {
+            print("No map explains the exploration.\n")?;
+        }
         return Ok(status);
     }
-    let maps = mapper.maps(options.rank as usize);
     let Some(map) = maps.get(options.rank as usize - 1) else {
         return Err(Failure::NoSuchRank { asked: options.rank, found: maps.len() });
     };
@@ -74,13 +77,12 @@ fn checked_replay(
     let experience = mapper.experience();
     let stars: Vec<Star> = experience.catalog.stars().cloned().collect();
     let observations = &experience.observations[..exploration.travels().len()];
-    let replay = hssh_topology::replay(sketch, &stars, experience.start, observations).map_err(|error| {
-        Failure::Usage(format!("the map found does not explain the exploration: {error}"))
-    })?;
+    let replay = hssh_topology::replay(sketch, &stars, experience.start, observations)
+        .map_err(|error| Failure::Disagreement(error.to_string()))?;
     match violations(sketch, &options.search.axioms()) {
         Ok(violations) if violations.is_empty() => Ok(replay),
-        Ok(violations) => Err(Failure::Usage(format!("the map found violates an axiom: {}", violations[0]))),
-        Err(error) => Err(Failure::Usage(format!("the map found is malformed: {error}"))),
+        Ok(violations) => Err(Failure::Disagreement(violations[0].to_string())),
+        Err(error) => Err(Failure::Disagreement(error.to_string())),
     }
 }
 
@@ -110,8 +112,7 @@ fn ending(mapper: &Mapper, map: &MapSketch, closed: bool) -> String {
     let places = map.places.len();
     let links = map.links.len();
     let rest = if closed { "no gateway is pending" } else { "some gateways are pending" };
-    let checked =
-        "The replay checks itself: every star matched, every place and link is needed, no axiom is violated.";
+    let checked = "An independent replay agrees: every star matches, every place and link is needed, no axiom is violated.";
     let short = match mapper.experience().observations.len().checked_sub(mapper.explained()) {
         Some(missing @ 1..) => format!(" A limit stopped the search {missing} travels before the end."),
         _ => String::new(),

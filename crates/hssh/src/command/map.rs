@@ -7,7 +7,7 @@ use hssh_draw::{
     Bearings, Layout, MapOptions as DrawOptions, SearchTree, TreeOptions, draw_map, draw_tree, map_to_dot,
     tree_to_dot,
 };
-use hssh_search::{Experience, Mapper, NodeId, RankedMap, Report, StopReason, count, place_by_odometry};
+use hssh_search::{Levels, Mapper, NodeId, RankedMap, Report, StopReason, Strategy, place_by_odometry};
 use hssh_topology::{MapSketch, Position};
 use serde::Serialize;
 
@@ -47,32 +47,28 @@ pub(crate) fn run(options: &MapOptions) -> Result<Status, Failure> {
     let exploration = read_exploration(&options.file)?;
     let exploration = exploration.prefix(options.search.travels.unwrap_or(usize::MAX));
     let pictures = options.svg.is_some() || options.dot.is_some() || options.tree.is_some();
-    if options.search.strategy().is_none() {
+    let Some(strategy) = options.search.strategy()? else {
         if pictures {
             let help = "counting keeps no maps to draw: choose another --search for pictures";
             return Err(Failure::Usage(help.to_owned()));
         }
         return run_count(options, &exploration);
-    }
-    let mapper = search(&options.search, &exploration)?;
-    let report = mapper.report();
-    let maps = mapper.maps(if options.all { usize::MAX } else { options.top });
-    let status = status_of(&report);
+    };
+    let mapper = search(&options.search, strategy, &exploration)?;
+    let (report, maps) = mapper.answer(if options.all { usize::MAX } else { options.top });
     print_answer(options, &mapper, &report, &maps)?;
     draw(options, &exploration, &mapper, &report, &maps)?;
-    Ok(status)
+    Ok(status_of(&report))
 }
 
 /// Searches with a progress line; Ctrl-C leaves what is known so far.
-pub(crate) fn search(options: &SearchOptions, exploration: &Exploration) -> Result<Mapper, Failure> {
-    let builder = Mapper::builder()
-        .axioms(options.axioms())
-        .preference(options.preference())
-        .strategy(options.strategy().unwrap_or_default())
-        .limits(options.limits())
-        .threads(options.threads);
+pub(crate) fn search(
+    options: &SearchOptions,
+    strategy: Strategy,
+    exploration: &Exploration,
+) -> Result<Mapper, Failure> {
     let travels = exploration.travels().len();
-    Ok(watched(travels, |monitor| builder.monitor(monitor.clone()).explain(exploration))?)
+    Ok(watched(travels, |monitor| options.builder(monitor).strategy(strategy).explain(exploration))?)
 }
 
 pub(crate) fn status_of(report: &Report) -> Status {
@@ -84,17 +80,20 @@ pub(crate) fn status_of(report: &Report) -> Status {
 }
 
 fn run_count(options: &MapOptions, exploration: &Exploration) -> Result<Status, Failure> {
-    let experience = Experience::from(exploration);
-    let search = &options.search;
-    let report = watched(experience.observations.len(), |monitor| {
-        count(&experience, &search.axioms(), search.preference(), search.limits(), search.threads, monitor)
-    })?;
+    let travels = exploration.travels().len();
+    let report = watched(travels, |monitor| options.search.builder(monitor).count(exploration))?;
     if options.json {
         print_json(&report)?;
     } else {
-        print(&report.to_string())?;
+        print(&account(options, &report))?;
     }
     Ok(status_of(&report))
+}
+
+/// The report, with its levels if they are asked for.
+fn account(options: &MapOptions, report: &Report) -> String {
+    let levels = if options.levels { Levels(report).to_string() } else { String::new() };
+    format!("{report}{levels}")
 }
 
 fn print_answer(
@@ -125,8 +124,8 @@ fn print_answer(
         let ranking = maps.iter().enumerate().map(entry).collect();
         return print_json(&Answer { report: report.clone(), ranking });
     }
-    let mut text = report.to_string();
-    text += &verdict(report, mapper);
+    let mut text = account(options, report);
+    text += &verdict(report);
     if !maps.is_empty() {
         text += "\n  rank     f1   f2 paths  f3 places  genus  closed\n";
     }
@@ -151,48 +150,59 @@ fn print_answer(
 }
 
 /// The answer in a sentence.
-fn verdict(report: &Report, mapper: &Mapper) -> String {
+fn verdict(report: &Report) -> String {
     let finals = &report.finals;
     let maps = counted(finals.final_maps as usize, "map");
-    if finals.final_maps == 0 && report.stop.is_complete() {
-        let died = report.levels.iter().position(|level| level.nodes == 0).unwrap_or(report.levels.len());
-        return format!(
-            "No map explains the exploration: none survives travel {died}. Is a star wrong, or an axiom too strict?\n"
-        );
-    }
     let explains = if finals.final_maps == 1 { "explains" } else { "explain" };
-    match report.stop {
-        StopReason::Exhausted if finals.optimal == 1 => {
-            format!("{maps} {explains} the exploration; one is optimal.\n")
-        }
-        StopReason::Exhausted => {
-            format!("{maps} {explains} the exploration; {} are optimal.\n", finals.optimal)
-        }
-        StopReason::Found => {
-            "A map explains the exploration; whether a better one exists was not searched.\n".to_owned()
-        }
-        StopReason::Proved if finals.optimal == 1 => {
-            "One map is optimal; that no other is as good is proved.\n".to_owned()
-        }
-        StopReason::Proved => {
-            format!("{} maps are optimal; that no other is as good is proved.\n", finals.optimal)
-        }
-        _ if finals.final_maps == 0 => {
+    match (report.stop, finals.final_maps, finals.optimal) {
+        (stop, 0, _) if !stop.is_complete() => {
             "Stopped early: no map that explains everything was found yet.\n".to_owned()
         }
-        _ if mapper.explained() < report.travels as usize => format!(
-            "Stopped early: {maps} {explains} the first {} of {} travels.\n",
-            report.explained, report.travels
-        ),
+        (_, 0, _) if report.rejected > 0 => {
+            let open = counted(report.rejected as usize, "map");
+            format!("No closed map explains the exploration; {open} with pending gateways would.\n")
+        }
+        (_, 0, _) => match report.levels.iter().position(|level| level.nodes == 0) {
+            _ if report.levels.len() as u64 <= report.travels => none_survives(report.levels.len()),
+            Some(travel) => none_survives(travel),
+            None => "No map explains the exploration.\n".to_owned(),
+        },
+        (StopReason::Exhausted, _, 1) => format!("{maps} {explains} the exploration; one is optimal.\n"),
+        (StopReason::Exhausted, _, best) => {
+            format!("{maps} {explains} the exploration; {best} are optimal.\n")
+        }
+        (StopReason::Proved, _, 1) => "One map is optimal; that no other is as good is proved.\n".to_owned(),
+        (StopReason::Proved, _, best) => {
+            format!("{best} maps are optimal; that no other is as good is proved.\n")
+        }
+        (StopReason::Found, _, _) => {
+            "This map explains the exploration; whether a better one exists was not searched.\n".to_owned()
+        }
+        _ if report.explained < report.travels => {
+            let Report { explained, travels, .. } = report;
+            format!("Stopped early: {maps} {explains} the first {explained} of {travels} travels.\n")
+        }
         _ => format!("Stopped early: {maps} {explains} everything; others may be better.\n"),
     }
 }
 
-/// How many of the listed maps are optimal.
-fn optimal_of(report: &Report, maps: &[RankedMap]) -> usize {
+fn none_survives(travel: usize) -> String {
+    format!(
+        "No map explains the exploration: none survives travel {travel}. Is a star wrong, or an axiom too strict?\n"
+    )
+}
+
+/// How many of the listed maps share the best rank.
+fn best_of(report: &Report, maps: &[RankedMap]) -> usize {
     maps.len().min(report.finals.optimal as usize)
 }
 
+/// How many of the listed maps are known to be optimal.
+fn optimal_of(report: &Report, maps: &[RankedMap]) -> usize {
+    if report.is_optimal { best_of(report, maps) } else { 0 }
+}
+
+/// Draws the tree, and the maps that share the best rank.
 fn draw(
     options: &MapOptions,
     exploration: &Exploration,
@@ -201,15 +211,15 @@ fn draw(
     maps: &[RankedMap],
 ) -> Result<(), Failure> {
     let bearings = Bearings(exploration.star_types().iter().map(|named| named.bearings.clone()).collect());
-    let optimal: Vec<NodeId> = maps.iter().take(optimal_of(report, maps)).map(|map| map.node).collect();
+    let best: Vec<NodeId> = maps.iter().take(best_of(report, maps)).map(|map| map.node).collect();
     if let Some(file) = &options.tree {
         let drawn = TreeOptions { bearings: bearings.clone(), ..TreeOptions::default() };
-        let tree = SearchTree::of(mapper.tree(), mapper.experience(), &optimal, drawn.most_maps);
+        let tree = SearchTree::of(mapper.tree(), mapper.experience(), &best, drawn.most_maps);
         let is_dot = file.extension().is_some_and(|ending| ending == "dot");
         let text = if is_dot { tree_to_dot(&tree, &drawn)? } else { draw_tree(&tree, &drawn)? };
         write_file(file, &text)?;
     }
-    for (index, &node) in optimal.iter().enumerate() {
+    for (index, &node) in best.iter().enumerate() {
         let (svg, dot) = (numbered(options.svg.as_deref(), index), numbered(options.dot.as_deref(), index));
         if svg.is_none() && dot.is_none() {
             break;
@@ -222,7 +232,7 @@ fn draw(
             None => Layout::schematic(map, &bearings)?,
         };
         let drawn = DrawOptions {
-            title: Some(title(&options.file, index, optimal.len())),
+            title: Some(title(&options.file, index, best.len(), report.is_optimal)),
             current: Some(hypothesis.position.place),
             star_names: exploration.star_types().iter().map(|named| named.name.clone()).collect(),
             ..DrawOptions::default()
@@ -237,15 +247,16 @@ fn draw(
     Ok(())
 }
 
-fn title(file: &Path, index: usize, optimal: usize) -> String {
+fn title(file: &Path, index: usize, best: usize, is_optimal: bool) -> String {
     let name = file.file_stem().map_or_else(|| "exploration".into(), |stem| stem.to_string_lossy());
-    match optimal {
-        1 => format!("{name}: the optimal map"),
-        _ => format!("{name}: optimal map {} of {optimal}", index + 1),
+    let kind = if is_optimal { "optimal map" } else { "best map found" };
+    match best {
+        1 => format!("{name}: the {kind}"),
+        _ => format!("{name}: {kind} {} of {best}", index + 1),
     }
 }
 
-/// The file for the picture of the optimal map with that index: `map.svg`, `map-2.svg`, …
+/// The file for the picture of the map with that index: `map.svg`, `map-2.svg`, …
 fn numbered(file: Option<&Path>, index: usize) -> Option<PathBuf> {
     let file = file?;
     if index == 0 {
