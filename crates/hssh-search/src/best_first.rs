@@ -1,5 +1,7 @@
 //! Best-first by preference, as in the thesis (section 2.3.1): only the successors of the best map
 //! among those that exist are made.
+//!
+//! Which map that is depends on the expansion before, so that more threads have nothing to do.
 
 use std::cmp::Reverse;
 
@@ -61,7 +63,9 @@ impl BestFirst {
             let Some(turn) = self.frontier.pop() else { break };
             if (turn.depth.0 as usize) < context.travels() {
                 let depth = Reverse(turn.depth.0 + 1);
-                for (node, Scored { score, closed, .. }) in self.frontier.expand(turn, tree, context, tally) {
+                for (node, Scored { score, closed, .. }) in
+                    self.frontier.expand(&[turn], tree, context, tally)
+                {
                     self.frontier.push(Turn { rank: context.preference.rank(score), depth, node, closed });
                 }
             } else if self.goal.accepts(turn.closed) {

@@ -29,10 +29,6 @@ impl Crew {
         Ok(Crew { pool, cursors: Mutex::new(Vec::new()) })
     }
 
-    pub(crate) fn threads(&self) -> usize {
-        self.pool.current_num_threads()
-    }
-
     /// Applies `work` to each piece, each time with a cursor; the results in the order of the pieces.
     pub(crate) fn map<T: Sync, R: Send>(
         &self,

@@ -1,7 +1,7 @@
-//! The queue of open hypotheses, expanded ahead of their turn by idle threads.
+//! The queue of open hypotheses.
 
 use std::cmp::Reverse;
-use std::collections::{BTreeMap, BinaryHeap};
+use std::collections::BinaryHeap;
 
 use hssh_topology::{Measure, Preference, Rank, Removals};
 
@@ -10,11 +10,8 @@ use crate::crew::{Look, Scratch, expand};
 use crate::report::Tally;
 use crate::tree::{Child, Cursor, NodeId, Outcome, Tree};
 
-/// Nodes per thread that are expanded ahead of their turn.
-const AHEAD: usize = 16;
-
-/// Expansions per thread that wait for their turn at most.
-const WAITING: usize = 64 * AHEAD;
+/// Nodes that one thread takes at a time.
+const PIECE: usize = 64;
 
 /// An open hypothesis: the lower its rank the sooner its turn, then the deeper, then the older.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
@@ -54,20 +51,16 @@ pub(crate) struct Expansion {
 }
 
 /// Open hypotheses in the order of their turns.
-///
-/// The order in which they are taken is that of one thread; more threads only compute in advance
-/// what will be asked for.
 #[derive(Debug)]
 pub(crate) struct Frontier {
     order: Order,
     queue: BinaryHeap<Reverse<Turn>>,
-    ahead: BTreeMap<NodeId, Expansion>,
 }
 
 impl Frontier {
     /// The queue that starts at the root.
     pub(crate) fn from_root(order: Order, preference: Preference) -> Self {
-        let mut frontier = Frontier { order, queue: BinaryHeap::new(), ahead: BTreeMap::new() };
+        let mut frontier = Frontier { order, queue: BinaryHeap::new() };
         let rank = preference.rank(Measure::default());
         frontier.push(Turn { rank, depth: Reverse(0), node: NodeId::ROOT, closed: false });
         frontier
@@ -89,45 +82,39 @@ impl Frontier {
         (self.queue.len() * size_of::<Turn>()) as u64
     }
 
-    /// Expands a node that has just been popped: its successors, which are in the tree then.
+    /// Takes the next hypotheses of the least rank there is, at most that many, by age.
+    pub(crate) fn pop_equals(&mut self, most: usize) -> Vec<Turn> {
+        let mut turns: Vec<Turn> = self.pop().into_iter().collect();
+        while turns.len() < most && self.peek().is_some_and(|turn| turn.rank == turns[0].rank) {
+            turns.extend(self.pop());
+        }
+        turns.sort_unstable_by_key(|turn| turn.node);
+        turns
+    }
+
+    /// Expands hypotheses that have been taken: the successors of each, which are in the tree then.
     pub(crate) fn expand(
-        &mut self,
-        turn: Turn,
+        &self,
+        turns: &[Turn],
         tree: &mut Tree,
         context: Context<'_>,
         tally: &mut Tally,
     ) -> Vec<(NodeId, Scored)> {
-        let expansion = self.expansion(turn.node, tree, context);
-        tally.enter(turn.node, &expansion, tree);
-        context.watch.add_nodes(expansion.successors.len() as u64);
-        context.watch.explained(turn.depth.0 as usize);
-        expansion.successors.into_iter().map(|scored| (tree.push(scored.child), scored)).collect()
-    }
-
-    fn expansion(&mut self, node: NodeId, tree: &Tree, context: Context<'_>) -> Expansion {
-        if let Some(expansion) = self.ahead.remove(&node) {
-            return expansion;
-        }
-        let mut nodes = vec![node];
-        let threads = context.crew.threads();
-        if threads > 1 {
-            // The first entries of a heap are among its best.
-            let most = AHEAD * threads;
-            let head = self.queue.iter().take(2 * most).map(|Reverse(turn)| turn);
-            let soon = head.filter(|turn| {
-                (turn.depth.0 as usize) < context.travels() && !self.ahead.contains_key(&turn.node)
-            });
-            nodes.extend(soon.map(|turn| turn.node).take(most - 1));
-        }
-        let order = self.order;
-        let expansions = context.crew.map(&nodes, context.experience, |cursor, &node| {
-            expansion_of(cursor, node, order, tree, context)
+        let (order, before): (Order, &Tree) = (self.order, tree);
+        let pieces: Vec<&[Turn]> = turns.chunks(PIECE).collect();
+        let expansions = context.crew.map(&pieces, context.experience, |cursor, piece| {
+            let expansion = |turn: &Turn| expansion_of(cursor, turn.node, order, before, context);
+            piece.iter().map(expansion).collect::<Vec<_>>()
         });
-        if self.ahead.len() > WAITING * threads {
-            self.ahead.clear(); // whatever is needed again is expanded again
+        let mut successors = Vec::new();
+        for (turn, expansion) in turns.iter().zip(expansions.into_iter().flatten()) {
+            tally.enter(turn.node, &expansion, tree);
+            context.watch.add_nodes(expansion.successors.len() as u64);
+            context.watch.explained(turn.depth.0 as usize);
+            successors
+                .extend(expansion.successors.into_iter().map(|scored| (tree.push(scored.child), scored)));
         }
-        self.ahead.extend(nodes.iter().copied().zip(expansions));
-        self.ahead.remove(&node).expect("the node itself is the first of those expanded")
+        successors
     }
 }
 

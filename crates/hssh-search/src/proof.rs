@@ -17,8 +17,8 @@ use crate::mapper::Goal;
 use crate::report::Tally;
 use crate::tree::{NodeId, Tree};
 
-/// Expansions between two looks at the limits.
-const LOOK: u64 = 128;
+/// Hypotheses of equal rank that are expanded together.
+const ROUND: usize = 2048;
 
 /// What a best-first search with proof knows about its answer.
 #[derive(Clone, Copy, PartialEq, Debug, Serialize)]
@@ -97,35 +97,29 @@ impl Proof {
     /// Expands the open hypothesis with the least bound until the answer is proved.
     pub(crate) fn advance(&mut self, tree: &mut Tree, context: Context<'_>, tally: &mut Tally) -> StopReason {
         let (travels, preference) = (context.travels() as u32, context.preference);
-        for expansions in 0_u64.. {
-            let look = expansions.is_multiple_of(LOOK);
-            if let Some(reason) = look.then(|| context.stop(tree, self.frontier.bytes())).flatten() {
+        loop {
+            if let Some(reason) = context.stop(tree, self.frontier.bytes()) {
                 return reason;
             }
-            let promising = self.frontier.peek().is_some_and(|turn| self.is_promising(turn.rank));
-            let Some(turn) = promising.then(|| self.frontier.pop()).flatten() else { break };
-            if turn.depth.0 == travels {
-                // Maps that explain everything are never queued, but for the root if there is nothing to explain.
-                let root = Hypothesis::root(&context.experience.catalog, context.experience.start);
-                if self.goal.accepts(root.map.is_closed()) {
-                    self.offer(turn.node, Measure::of(&root.map));
-                }
-                continue;
+            if !self.frontier.peek().is_some_and(|turn| self.is_promising(turn.rank)) {
+                break;
             }
-            let depth = turn.depth.0 + 1;
-            for (node, Scored { score, closed, closable, .. }) in
-                self.frontier.expand(turn, tree, context, tally)
-            {
-                let rank = preference.rank(score);
-                if depth == travels && self.goal.accepts(closed) {
-                    self.offer(node, score);
-                } else if depth == travels {
-                    self.rejected += 1;
-                } else if !self.goal.accepts(closable) {
-                    continue;
-                } else if self.is_promising(rank) {
+            // All of one rank have their turn before the proof is done, so that none is expanded in vain.
+            let mut turns = self.frontier.pop_equals(ROUND);
+            if travels == 0 {
+                // There is nothing to explain: the root does it.
+                let root = Hypothesis::root(&context.experience.catalog, context.experience.start);
+                self.arrive(NodeId::ROOT, Measure::of(&root.map), root.map.is_closed());
+                turns.clear();
+            }
+            for (node, scored) in self.frontier.expand(&turns, tree, context, tally) {
+                let Scored { score, closed, closable, .. } = scored;
+                let (depth, rank) = (tree.depth(node) as u32, preference.rank(score));
+                if depth == travels {
+                    self.arrive(node, score, closed);
+                } else if self.goal.accepts(closable) && self.is_promising(rank) {
                     self.frontier.push(Turn { rank, depth: Reverse(depth), node, closed });
-                } else {
+                } else if self.goal.accepts(closable) {
                     self.least_left_out = self.least_left_out.into_iter().chain([rank]).min();
                 }
             }
@@ -140,15 +134,16 @@ impl Proof {
     }
 
     /// A map that explains everything.
-    fn offer(&mut self, node: NodeId, measure: Measure) {
+    fn arrive(&mut self, node: NodeId, measure: Measure, closed: bool) {
         let rank = self.preference.rank(measure);
-        if !self.is_promising(rank) {
-            return;
+        if !self.goal.accepts(closed) {
+            self.rejected += 1;
+        } else if self.is_promising(rank) {
+            if self.best.is_none_or(|best| rank < self.preference.rank(best)) {
+                self.best = Some(measure);
+                self.optimal.clear();
+            }
+            self.optimal.push(node);
         }
-        if self.best.is_none_or(|best| rank < self.preference.rank(best)) {
-            self.best = Some(measure);
-            self.optimal.clear();
-        }
-        self.optimal.push(node);
     }
 }
