@@ -13,7 +13,7 @@ use crate::report::{FinalCounts, LevelCounts, Report, Tally};
 use crate::tree::{NodeId, Tree};
 
 /// The tree is cut below the first level with that many nodes, and each branch counted by itself.
-const BRANCHES: u32 = 512;
+const BRANCHES: u32 = 2048;
 
 /// How many branches are counted between two looks at a limit on nodes.
 const BRANCHES_UNDER_LIMIT: usize = 64;
