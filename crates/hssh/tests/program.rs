@@ -122,12 +122,13 @@ fn reads_standard_input() {
 }
 
 #[test]
-fn the_picture_in_the_readme_is_the_one_it_makes() {
+fn the_pictures_in_the_documents_are_those_it_makes() {
     let folder = scratch("readme");
     let drawn = |name: &str| folder.join(name).to_string_lossy().into_owned();
     let (map, tree) = (drawn("aces.svg"), drawn("aces-tree.svg"));
     hssh(&["map", "fixtures/aces.ron", "--planar", "--svg", &map, "--tree", &tree]);
-    for name in ["aces.svg", "aces-tree.svg"] {
+    hssh(&["map", "fixtures/figure-2-4.ron", "--tree", &drawn("figure-2-4-tree.svg")]);
+    for name in ["aces.svg", "aces-tree.svg", "figure-2-4-tree.svg"] {
         let shown = std::fs::read_to_string(root().join("docs/images").join(name)).unwrap();
         assert_eq!(
             std::fs::read_to_string(folder.join(name)).unwrap(),
