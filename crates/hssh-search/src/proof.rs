@@ -49,7 +49,7 @@ pub(crate) struct Proof {
     frontier: Frontier,
     best: Option<Measure>,
     optimal: Vec<NodeId>,
-    /// Maps that explain everything but are not closed, where closed ones were asked for.
+    /// Hypotheses that no closed map can come of, where closed ones were asked for.
     rejected: u64,
     /// The least rank that was too high to be queued.
     least_left_out: Option<Rank>,
@@ -78,7 +78,7 @@ impl Proof {
         self.optimal.clone()
     }
 
-    /// How many maps explain everything but are not closed, where closed ones were asked for.
+    /// How many hypotheses were turned down because no closed map can come of them.
     pub(crate) fn rejected(&self) -> u64 {
         self.rejected
     }
@@ -117,9 +117,11 @@ impl Proof {
                 let (depth, rank) = (tree.depth(node) as u32, preference.rank(score));
                 if depth == travels {
                     self.arrive(node, score, closed);
-                } else if self.goal.accepts(closable) && self.is_promising(rank) {
+                } else if !self.goal.accepts(closable) {
+                    self.rejected += 1;
+                } else if self.is_promising(rank) {
                     self.frontier.push(Turn { rank, depth: Reverse(depth), node, closed });
-                } else if self.goal.accepts(closable) {
+                } else {
                     self.least_left_out = self.least_left_out.into_iter().chain([rank]).min();
                 }
             }

@@ -139,7 +139,8 @@ pub struct Report {
     /// Counts over the maps that explain what is explained.
     #[serde(flatten)]
     pub finals: FinalCounts,
-    /// Maps that explain everything but were turned down because a closed one was asked for.
+    /// Hypotheses that were turned down because a closed map was asked for and none can come of them:
+    /// maps that explain everything, and with proof also those too far from closed to become it.
     pub rejected: u64,
     /// Whether the best maps are known to be the best of all: whether nothing was left out.
     pub is_optimal: bool,

@@ -26,16 +26,21 @@ pub struct Axioms {
     pub consistent_boundaries: bool,
 }
 
+impl Axioms {
+    /// The axioms of every published table.
+    pub const PUBLISHED: Axioms = Axioms {
+        no_self_intersection: true,
+        no_circular_path: true,
+        max_places: None,
+        max_genus: None,
+        perpendicular: false,
+        consistent_boundaries: false,
+    };
+}
+
 impl Default for Axioms {
     fn default() -> Self {
-        Axioms {
-            no_self_intersection: true,
-            no_circular_path: true,
-            max_places: None,
-            max_genus: None,
-            perpendicular: false,
-            consistent_boundaries: false,
-        }
+        Axioms::PUBLISHED
     }
 }
 

@@ -22,22 +22,13 @@ struct Case {
     keeps_tree: bool,
 }
 
-const AXIOMS: Axioms = Axioms {
-    no_self_intersection: true,
-    no_circular_path: true,
-    max_places: None,
-    max_genus: None,
-    perpendicular: false,
-    consistent_boundaries: false,
-};
-
 const CASES: [Case; 3] = [
-    Case { name: "exhaustive-4x4", side: 4, axioms: AXIOMS, keeps_tree: false },
-    Case { name: "breadth-first-4x4", side: 4, axioms: AXIOMS, keeps_tree: true },
+    Case { name: "exhaustive-4x4", side: 4, axioms: Axioms::PUBLISHED, keeps_tree: false },
+    Case { name: "breadth-first-4x4", side: 4, axioms: Axioms::PUBLISHED, keeps_tree: true },
     Case {
         name: "exhaustive-5x5-planar-25",
         side: 5,
-        axioms: Axioms { max_genus: Some(0), max_places: Some(25), ..AXIOMS },
+        axioms: Axioms { max_genus: Some(0), max_places: Some(25), ..Axioms::PUBLISHED },
         keeps_tree: false,
     },
 ];

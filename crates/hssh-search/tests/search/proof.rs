@@ -3,7 +3,7 @@
 use std::collections::BTreeSet;
 
 use hssh_search::{Cursor, Goal, Mapper, StopReason, Strategy};
-use hssh_topology::{GenusRank, MapSketch, Measure, Preference};
+use hssh_topology::{Axioms, GenusRank, MapSketch, Measure, Preference};
 use proptest::prelude::*;
 
 use crate::cases::{breadth_first, case, last_nodes, sketch, sketches};
@@ -103,5 +103,21 @@ proptest! {
             let known = text(&sketches(&all));
             prop_assert!(text(&sketches(&mapper)).is_subset(&known));
         }
+    }
+}
+
+/// Where no closed map can come of a hypothesis, the proof turns it down before the last travel, and
+/// says so: that is not the same as a star that fits nowhere.
+#[test]
+fn what_cannot_close_is_turned_down_and_counted() {
+    let whole = hssh_world::strategies::random_exploration(3);
+    for travels in 1..=whole.travels().len().min(6) {
+        let exploration = whole.prefix(travels);
+        let all = breadth_first(&exploration, Axioms::default()).maps(usize::MAX);
+        let builder = Mapper::builder().strategy(Strategy::Proof(Goal::ClosedMap));
+        let mapper = builder.explain(&exploration).unwrap();
+        let closed = all.iter().any(|map| map.closed);
+        assert_eq!(mapper.report().stop == StopReason::Proved, closed, "{travels} travels");
+        assert!(closed || all.is_empty() || mapper.report().rejected > 0, "{travels} travels");
     }
 }

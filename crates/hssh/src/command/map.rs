@@ -159,8 +159,11 @@ fn verdict(report: &Report) -> String {
             "Stopped early: no map that explains everything was found yet.\n".to_owned()
         }
         (_, 0, _) if report.rejected > 0 => {
-            let open = counted(report.rejected as usize, "map");
-            format!("No closed map explains the exploration; {open} with pending gateways would.\n")
+            let hypotheses = match report.rejected {
+                1 => "1 hypothesis was".to_owned(),
+                many => format!("{many} hypotheses were"),
+            };
+            format!("No closed map explains the exploration; {hypotheses} left with pending gateways.\n")
         }
         (_, 0, _) => match report.levels.iter().position(|level| level.nodes == 0) {
             _ if report.levels.len() as u64 <= report.travels => none_survives(report.levels.len()),
