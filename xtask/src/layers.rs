@@ -11,18 +11,19 @@ use crate::root;
 ///
 /// The layers follow the SSH: control and causal below topological, metrical beside it, search above.
 /// Dev-dependencies are free; `hssh-oracle` may be nothing else.
-const LAYERS: [(&str, &[&str]); 9] = [
+const LAYERS: [(&str, &[&str]); 10] = [
     ("hssh-topology", &[]),
     ("hssh-causal", &["hssh-topology"]),
     ("hssh-metrics", &[]),
+    ("hssh-local", &["hssh-causal", "hssh-topology", "hssh-metrics"]),
     ("hssh-search", &["hssh-causal", "hssh-topology", "hssh-metrics"]),
-    ("hssh-world", &["hssh-causal", "hssh-topology", "hssh-metrics"]),
-    ("hssh-draw", &["hssh-topology", "hssh-metrics", "hssh-search"]),
+    ("hssh-world", &["hssh-causal", "hssh-topology", "hssh-metrics", "hssh-local"]),
+    ("hssh-draw", &["hssh-topology", "hssh-metrics", "hssh-local", "hssh-search"]),
     ("hssh-oracle", &["hssh-causal", "hssh-topology"]),
-    ("hssh", &["hssh-topology", "hssh-causal", "hssh-metrics", "hssh-search", "hssh-world", "hssh-draw"]),
+    ("hssh", &["hssh-topology", "hssh-causal", "hssh-metrics", "hssh-local", "hssh-search", "hssh-world", "hssh-draw"]),
     (
         "xtask",
-        &["hssh-topology", "hssh-causal", "hssh-metrics", "hssh-search", "hssh-world", "hssh-draw", "hssh"],
+        &["hssh-topology", "hssh-causal", "hssh-metrics", "hssh-local", "hssh-search", "hssh-world", "hssh-draw", "hssh"],
     ),
 ];
 
