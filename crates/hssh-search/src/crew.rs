@@ -67,6 +67,13 @@ pub(crate) struct Scratch {
     pub(crate) removals: Removals,
 }
 
+/// What the recursive step made of a node, besides successors.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Step {
+    pub(crate) outcome: Outcome,
+    pub(crate) removals: Removals,
+}
+
 /// Which map [`expand`] shows with a successor.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(crate) enum Look {

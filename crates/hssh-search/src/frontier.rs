@@ -3,12 +3,12 @@
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
 
-use hssh_topology::{Measure, Preference, Rank, Removals};
+use hssh_topology::{Measure, Preference, Rank};
 
 use crate::context::Context;
-use crate::crew::{Look, Scratch, expand};
+use crate::crew::{Look, Scratch, Step, expand};
 use crate::report::Tally;
-use crate::tree::{Child, Cursor, NodeId, Outcome, Tree};
+use crate::tree::{Child, Cursor, NodeId, Tree};
 
 /// Nodes that one thread takes at a time.
 const PIECE: usize = 64;
@@ -44,10 +44,9 @@ pub(crate) struct Scored {
 
 /// What the recursive step makes of a node.
 #[derive(Clone, Debug)]
-pub(crate) struct Expansion {
-    pub(crate) outcome: Outcome,
-    pub(crate) successors: Vec<Scored>,
-    pub(crate) removals: Removals,
+struct Expansion {
+    step: Step,
+    successors: Vec<Scored>,
 }
 
 /// Open hypotheses in the order of their turns.
@@ -108,7 +107,8 @@ impl Frontier {
         });
         let mut successors = Vec::new();
         for (turn, expansion) in turns.iter().zip(expansions.into_iter().flatten()) {
-            tally.enter(turn.node, &expansion, tree);
+            let children = expansion.successors.iter().map(|scored| &scored.child);
+            tally.enter(turn.node, &expansion.step, children, tree);
             context.watch.add_nodes(expansion.successors.len() as u64);
             context.watch.explained(turn.depth.0 as usize);
             successors
@@ -136,5 +136,5 @@ fn expansion_of(
         let closable = map.pending_count() <= 2 * travels_left;
         successors.push(Scored { child, score, closed: map.is_closed(), closable });
     });
-    Expansion { outcome, successors, removals: scratch.removals }
+    Expansion { step: Step { outcome, removals: scratch.removals }, successors }
 }

@@ -12,21 +12,31 @@ mod context;
 mod count;
 mod crew;
 mod depth_first;
+mod distinction;
 mod experience;
+mod frames;
 mod frontier;
 mod limits;
 mod mapper;
+mod measured;
 mod placement;
+mod posterior;
 mod proof;
 mod report;
 mod tree;
 
 pub use branching::{BranchingSample, branching};
 pub use depth_first::{Visitor, depth_first};
+pub use distinction::{Distinction, Parting, Prediction, Test, distinguish};
 pub use experience::Experience;
 pub use limits::{Limits, Monitor, StopReason};
 pub use mapper::{Goal, Mapper, MapperBuilder, ObservationError, RankedMap, Strategy, ThreadsError};
+pub use measured::MeasurementError;
 pub use placement::{Placement, PlacementError, place_by_odometry};
+pub use posterior::{
+    Corridor, Cost, LINEAR_TRUST, MapPrior, Metrical, ModelError, PlacePrior, Posterior, PosteriorError,
+    PosteriorModel, PosteriorOrder, PosteriorReport, PosteriorSearch, ProbableMap, Proving,
+};
 pub use proof::Certificate;
 pub use report::{FinalCounts, LevelCounts, Levels, Report};
 pub use tree::{Cursor, Derived, NodeId, Outcome, Tree};

@@ -418,15 +418,7 @@ impl Mapper {
     /// Where the robot was in the map of a node, after each travel that it explains, the start first.
     #[must_use]
     pub fn visits(&self, node: NodeId) -> Vec<Position> {
-        let mut hypothesis = self.hypothesis(node);
-        let start = Hypothesis::root(&self.experience.catalog, self.experience.start).position;
-        let branch = self.tree.branch(node);
-        let arrivals = branch.iter().filter_map(|&node| self.tree.arrival(node));
-        let came = arrivals.zip(&self.experience.observations).map(|(arrival, observation)| {
-            hypothesis.arrive(arrival, observation.entry);
-            hypothesis.position
-        });
-        std::iter::once(start).chain(came).collect()
+        Cursor::new(&self.experience).visits(node, &self.tree, &self.experience)
     }
 
     /// The tree of all hypotheses made.

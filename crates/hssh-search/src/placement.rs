@@ -1,13 +1,14 @@
 //! Where the places of a map are, as far as measured travels tell: one frame for all of them
 //! (section 2.1.4).
 
-use hssh_causal::{Exploration, StarType};
+use hssh_causal::Exploration;
 use hssh_metrics::{
-    Covariance, Edge, GraphError, Options, Pose, PoseGraph, PoseId, SolveError, UncertaintyError,
-    chordal_poses, solve, wrap_angle,
+    GraphError, Options, Pose, PoseGraph, PoseId, SolveError, UncertaintyError, chordal_poses, solve,
 };
-use hssh_topology::{Isomorphism, Olp, PlaceId, Position};
-use nalgebra::Matrix3;
+use hssh_topology::Position;
+
+use crate::frames::Frames;
+use crate::measured::MeasuredTravel;
 
 /// The poses of all places in the frame of the first one.
 #[derive(Clone, PartialEq, Debug)]
@@ -51,34 +52,21 @@ pub fn place_by_odometry(
     exploration: &Exploration,
     visits: &[Position],
 ) -> Result<Option<Placement>, PlacementError> {
-    let seen: Vec<StarType> = exploration.visits().collect();
-    let places = visits.iter().map(|visit| visit.place.index() + 1).max().unwrap_or(0);
-    let mut first_seen: Vec<Option<StarType>> = vec![None; places];
-    let mut frames = Vec::new(); // of each visit, in the frame of its place
-    for (visit, &star_type) in visits.iter().zip(&seen) {
-        let first = *first_seen[visit.place.index()].get_or_insert(star_type);
-        frames.push(Pose::new(0.0, 0.0, turn(exploration, star_type, first, visit.phi)));
-    }
-
+    let trail = Frames::of(exploration).trail(visits.to_vec());
     let mut graph = PoseGraph::new();
-    for _ in 0..places {
+    for _ in &trail.first_seen {
         graph.add_pose(Pose::default());
     }
-    let id = |place: PlaceId| PoseId(place.0);
+    let id = |visit: usize| PoseId(trail.visits[visit].place.0);
     for (index, travel) in exploration.travels().iter().enumerate().take(visits.len().saturating_sub(1)) {
         let Some(odometry) = &travel.odometry else { continue };
-        let (from, to) = (&visits[index], &visits[index + 1]);
-        if from.place == to.place {
-            continue;
-        }
-        let c = odometry.covariance;
-        let covariance = Covariance::new(Matrix3::from_fn(|row, column| c[row][column]))
+        let measured = MeasuredTravel::of(odometry)
             .map_err(|problem| PlacementError::Covariance { travel: index + 1, problem })?;
-        let measured = Pose::new(odometry.x, odometry.y, odometry.theta);
-        let relative = frames[index].compose(measured).compose(frames[index + 1].inverse());
-        let covariance = covariance.rotated(frames[index].theta);
-        let edge = Edge::observed(id(from.place), id(to.place), relative, &covariance);
-        graph.add_edge(edge)?;
+        let placed =
+            measured.between((id(index), trail.frames[index]), (id(index + 1), trail.frames[index + 1]));
+        if placed.from != placed.to {
+            graph.add_edge(placed.edge())?;
+        }
     }
     if graph.anchor_components().len() != 1 {
         return Ok(None);
@@ -87,21 +75,4 @@ pub fn place_by_odometry(
     graph.set_poses(start)?;
     let solution = solve(&graph, &Options::default())?;
     Ok(Some(Placement { poses: solution.poses, chi2: solution.chi2 }))
-}
-
-/// By how much the frame of a visit is turned against that of its place: the mean difference of the
-/// bearings of corresponding ends.
-fn turn(exploration: &Exploration, seen: StarType, first: StarType, phi: Isomorphism) -> f64 {
-    let (seen, first) = (&exploration.star_types()[seen.index()], &exploration.star_types()[first.index()]);
-    let spread = |olp: Olp| -std::f64::consts::TAU * f64::from(olp.0) / f64::from(seen.star.degree());
-    let measured: Vec<f64> = seen
-        .star
-        .olps()
-        .filter_map(|olp| Some(first.bearings[phi.apply(olp).index()]? - seen.bearings[olp.index()]?))
-        .collect();
-    if measured.is_empty() {
-        return wrap_angle(spread(phi.apply(Olp(0))) - spread(Olp(0)));
-    }
-    let (sine, cosine) = measured.iter().fold((0.0, 0.0), |(s, c), turn| (s + turn.sin(), c + turn.cos()));
-    sine.atan2(cosine)
 }

@@ -5,10 +5,10 @@ use std::fmt;
 use hssh_topology::{Axiom, Measure, Preference, Removals, TopologicalMap};
 use serde::Serialize;
 
-use crate::frontier::Expansion;
+use crate::crew::Step;
 use crate::limits::StopReason;
 use crate::proof::Certificate;
-use crate::tree::{NodeId, Outcome, Tree};
+use crate::tree::{Child, NodeId, Outcome, Tree};
 
 /// The nodes that explain the same number of travels.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Default, Serialize)]
@@ -46,21 +46,27 @@ impl Tally {
     }
 
     /// A node was expanded; its successors are about to be added to the tree.
-    pub(crate) fn enter(&mut self, node: NodeId, expansion: &Expansion, tree: &mut Tree) {
-        tree.set_outcome(node, expansion.outcome);
+    pub(crate) fn enter<'a>(
+        &mut self,
+        node: NodeId,
+        step: &Step,
+        successors: impl ExactSizeIterator<Item = &'a Child>,
+        tree: &mut Tree,
+    ) {
+        tree.set_outcome(node, step.outcome);
         let depth = tree.depth(node);
-        self.removals += expansion.removals;
+        self.removals += step.removals;
         self.expanded += 1;
-        self.levels[depth].refuted += u64::from(expansion.outcome == Outcome::Refuted);
-        if expansion.successors.is_empty() {
+        self.levels[depth].refuted += u64::from(step.outcome == Outcome::Refuted);
+        if successors.len() == 0 {
             return;
         }
         if self.levels.len() == depth + 1 {
             self.levels.push(LevelCounts::default());
         }
         let level = &mut self.levels[depth + 1];
-        level.nodes += expansion.successors.len() as u64;
-        level.maps += expansion.successors.iter().filter(|next| next.child.growth.is_some()).count() as u64;
+        level.nodes += successors.len() as u64;
+        level.maps += successors.filter(|child| child.growth.is_some()).count() as u64;
     }
 }
 

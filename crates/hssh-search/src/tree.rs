@@ -1,6 +1,6 @@
 //! The tree of hypotheses: each node a small difference to its parent, and cursors that visit them.
 
-use hssh_topology::{Extension, Hypothesis, MapOlp, Observation};
+use hssh_topology::{Extension, Hypothesis, MapOlp, Observation, Position};
 
 use crate::experience::Experience;
 
@@ -239,6 +239,18 @@ impl Cursor {
             }
         }
         &mut self.hypothesis
+    }
+
+    /// Moves to a node; where the robot was there, after each travel that it explains, the start first.
+    #[must_use]
+    pub fn visits(&mut self, node: NodeId, tree: &Tree, experience: &Experience) -> Vec<Position> {
+        let hypothesis = self.go_to(node, tree, experience);
+        let start = Hypothesis::root(&experience.catalog, experience.start).position;
+        let branch = tree.branch(node);
+        let arrivals = branch.iter().filter_map(|&node| tree.arrival(node));
+        let came = arrivals.zip(&experience.observations);
+        let visits = came.map(|(arrival, observation)| hypothesis.position_at(arrival, observation.entry));
+        std::iter::once(start).chain(visits).collect()
     }
 
     /// The hypothesis at the node it was moved to last.

@@ -151,9 +151,15 @@ impl Hypothesis {
     /// Puts the robot at the place that it reaches by the gateway `arrival`, having seen there a star
     /// that it entered by `entry`.
     pub fn arrive(&mut self, arrival: MapOlp, entry: Olp) {
+        self.position = self.position_at(arrival, entry);
+    }
+
+    /// Where the robot is if it reached a place by the gateway `arrival`, having seen there a star that it
+    /// entered by `entry`.
+    #[must_use]
+    pub fn position_at(&self, arrival: MapOlp, entry: Olp) -> Position {
         let place = self.map.place(arrival);
         let degree = self.map.olps_of(place).len() as u32;
-        let phi = Isomorphism::rotating(entry, self.map.local(arrival), degree);
-        self.position = Position { place, phi };
+        Position { place, phi: Isomorphism::rotating(entry, self.map.local(arrival), degree) }
     }
 }

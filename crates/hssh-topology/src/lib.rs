@@ -12,6 +12,7 @@ mod isomorphism;
 mod map;
 mod preference;
 mod replay;
+mod simplicity;
 mod star;
 
 pub use axioms::{Axiom, Axioms, Removals};
@@ -27,4 +28,5 @@ pub use replay::{
     Contradiction, Discovery, End, Malformed, MapSketch, Replay, ReplayedTravel, TracedPath, Violation,
     replay, violations,
 };
+pub use simplicity::{Simplicity, SimplicityError};
 pub use star::{Olp, OlpName, Sign, Star, StarEnd, StarError, Travel};

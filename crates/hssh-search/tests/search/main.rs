@@ -5,9 +5,11 @@
 
 mod agreement;
 mod cases;
+mod distinction;
 mod found;
 mod limits;
 mod online;
+mod posterior;
 mod proof;
 mod published;
 mod threads;

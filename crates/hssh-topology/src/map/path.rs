@@ -130,6 +130,13 @@ impl TopologicalMap {
         self.paths[path.index()].state == PathState::Circular
     }
 
+    /// How many of the two ends of a path are pending gateways; the others are closed. A circular path has
+    /// no ends.
+    #[must_use]
+    pub fn pending_ends(&self, path: PathId) -> u32 {
+        self.paths[path.index()].pending_ends
+    }
+
     /// Whether no link can change a path any more: whether both its ends are closed, or it has none.
     #[must_use]
     pub fn is_complete(&self, path: PathId) -> bool {

@@ -1,0 +1,92 @@
+//! How the frames of visits are turned against the frames of places: φ in metrical terms.
+//!
+//! A place has the frame in which the bearings of its star were given on the first visit. A robot that
+//! comes back may see the star turned by φ; then the frame of that visit is turned too, by the difference of
+//! the bearings of ends that φ takes to one another.
+
+use hssh_causal::{Exploration, StarType};
+use hssh_metrics::{Pose, PoseId, wrap_angle};
+use hssh_topology::{Olp, Position};
+
+/// The angles between the frames of visits and of places, for every pair of star types and every φ.
+#[derive(Clone, Debug)]
+pub(crate) struct Frames {
+    /// By star type seen, star type of the first visit, and rotation of φ; radians.
+    turns: Vec<Vec<Vec<f64>>>,
+    /// The star type seen on each visit, the start first.
+    seen: Vec<StarType>,
+}
+
+impl Frames {
+    pub(crate) fn of(exploration: &Exploration) -> Self {
+        let types = || (0..exploration.star_types().len() as u32).map(StarType);
+        let degree = |star: StarType| exploration.star_types()[star.index()].star.degree();
+        let turns_between = |seen: StarType, first: StarType| {
+            let rotations = if degree(seen) == degree(first) { 0..degree(seen) } else { 0..0 };
+            rotations.map(|rotation| turn(exploration, seen, first, rotation)).collect()
+        };
+        let turns = types().map(|seen| types().map(|first| turns_between(seen, first)).collect()).collect();
+        Frames { turns, seen: exploration.visits().collect() }
+    }
+
+    /// By what angle the frame of a visit is turned against that of a place whose star was `first` on its
+    /// first visit, if φ turns the one star to the other by `rotation`.
+    pub(crate) fn turn(&self, visit: usize, first: StarType, rotation: u32) -> f64 {
+        self.turns[self.seen[visit].index()][first.index()][rotation as usize]
+    }
+
+    /// The same if the place was first seen on the visit `first`.
+    pub(crate) fn turn_between(&self, visit: usize, first: usize, rotation: u32) -> f64 {
+        self.turn(visit, self.seen[first], rotation)
+    }
+
+    /// The frame of each visit in the frame of its place.
+    pub(crate) fn trail(&self, visits: Vec<Position>) -> Trail {
+        let mut trail = Trail { frames: Vec::with_capacity(visits.len()), first_seen: Vec::new(), visits };
+        for (visit, position) in trail.visits.iter().enumerate() {
+            if position.place.index() == trail.first_seen.len() {
+                trail.first_seen.push(self.seen[visit]);
+            }
+            let first = trail.first_seen[position.place.index()];
+            trail.frames.push(Pose::new(0.0, 0.0, self.turn(visit, first, position.phi.rotation())));
+        }
+        trail
+    }
+}
+
+/// Where a hypothesis takes the robot to have been.
+#[derive(Clone, Debug)]
+pub(crate) struct Trail {
+    /// The place of each visit, with φ. Places are numbered in the order they were found.
+    pub(crate) visits: Vec<Position>,
+    /// The frame of each visit in the frame of its place.
+    pub(crate) frames: Vec<Pose>,
+    /// By place: the star type seen on its first visit, whose bearings give the place its frame.
+    pub(crate) first_seen: Vec<StarType>,
+}
+
+impl Trail {
+    /// The place of a visit, as a pose of a graph, and the visit's frame in it.
+    pub(crate) fn end(&self, visit: usize) -> (PoseId, Pose) {
+        (PoseId(self.visits[visit].place.0), self.frames[visit])
+    }
+}
+
+/// The mean difference of the bearings of corresponding ends. Ends without bearings count as spread evenly
+/// around the place.
+fn turn(exploration: &Exploration, seen: StarType, first: StarType, rotation: u32) -> f64 {
+    let (seen, first) = (&exploration.star_types()[seen.index()], &exploration.star_types()[first.index()]);
+    let degree = seen.star.degree();
+    let image = |olp: Olp| Olp((olp.0 + rotation) % degree);
+    let spread = |olp: Olp| -std::f64::consts::TAU * f64::from(olp.0) / f64::from(degree);
+    let measured: Vec<f64> = seen
+        .star
+        .olps()
+        .filter_map(|olp| Some(first.bearings[image(olp).index()]? - seen.bearings[olp.index()]?))
+        .collect();
+    if measured.is_empty() {
+        return wrap_angle(spread(image(Olp(0))) - spread(Olp(0)));
+    }
+    let (sine, cosine) = measured.iter().fold((0.0, 0.0), |(s, c), turn| (s + turn.sin(), c + turn.cos()));
+    sine.atan2(cosine)
+}

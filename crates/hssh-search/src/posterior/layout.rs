@@ -1,0 +1,77 @@
+//! The metrical layout of one hypothesis: the poses of its places, and how well the travels fit them.
+
+use std::sync::Arc;
+
+use hssh_metrics::{Marginals, Options, Pose, PoseGraph, SolveError, chordal_poses, solve};
+
+use crate::frames::Trail;
+use crate::measured::{Measured, PlacedTravel};
+
+/// The most likely poses of all places, the first at the origin.
+#[derive(Clone, PartialEq, Debug)]
+pub(crate) struct Layout {
+    pub(crate) poses: Vec<Pose>,
+    pub(crate) chi2: f64,
+}
+
+impl Layout {
+    /// The first place alone.
+    pub(crate) fn root() -> Arc<Self> {
+        Arc::new(Layout { poses: vec![Pose::IDENTITY], chi2: 0.0 })
+    }
+
+    /// One place more, at the far end of a travel.
+    pub(crate) fn with_new_place(&self, travel: &PlacedTravel) -> Self {
+        let mut poses = self.poses.clone();
+        poses.push(poses[travel.from.index()].compose(travel.pose));
+        Layout { poses, chi2: self.chi2 }
+    }
+
+    /// The distribution of the poses around this layout.
+    pub(crate) fn marginals(&self, trail: &Trail, measured: &Measured) -> Result<Marginals, SolveError> {
+        Marginals::new(&measured.graph(trail, &self.poses))
+    }
+
+    /// The layout of a hypothesis that closes a loop in one with this layout, whose last travel it is.
+    ///
+    /// Least squares start from this layout; if they end far above what the linear estimate promised, they
+    /// may have been caught in a local minimum, and start once more from the measurements alone.
+    pub(crate) fn bent(&self, trail: &Trail, measured: &Measured, promised: f64) -> Result<Self, SolveError> {
+        let loops = measured.chi2_of_loops(trail);
+        let graph = &mut measured.graph(trail, &self.poses);
+        let warm = minimum(graph)?;
+        if warm.chi2 + loops <= 1.0 + 1.5 * promised {
+            return Ok(Layout { chi2: warm.chi2 + loops, ..warm });
+        }
+        let start = chordal_poses(graph)?;
+        graph.set_poses(start).expect("as many as there were");
+        let cold = minimum(graph)?;
+        let best = if cold.chi2 < warm.chi2 { cold } else { warm };
+        Ok(Layout { chi2: best.chi2 + loops, ..best })
+    }
+}
+
+fn minimum(graph: &PoseGraph) -> Result<Layout, SolveError> {
+    let solution = solve(graph, &Options::default())?;
+    Ok(Layout { poses: solution.poses, chi2: solution.chi2 })
+}
+
+/// What a travel between known places adds, by the linear estimate.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct Strain {
+    /// The rise of χ².
+    pub(crate) chi2: f64,
+    /// ½ ln(|C + H Σ Hᵀ| / |C|).
+    pub(crate) vagueness: f64,
+}
+
+impl Strain {
+    pub(crate) fn of(travel: &PlacedTravel, marginals: &Marginals) -> Self {
+        if travel.from == travel.to {
+            return Strain { chi2: travel.chi2_as_loop(), vagueness: 0.0 };
+        }
+        let PlacedTravel { from, to, pose, covariance } = travel;
+        let constraint = marginals.new_constraint(*from, *to, *pose, covariance);
+        Strain { chi2: constraint.chi2_rise, vagueness: 0.5 * constraint.log_determinant_rise.max(0.0) }
+    }
+}

@@ -1,0 +1,183 @@
+//! The search by posterior against an exhaustive enumeration that scores every map by itself.
+
+use hssh_causal::Exploration;
+use hssh_metrics::{Marginals, UniformPrior};
+use hssh_search::{
+    Cursor, Experience, Goal, MapPrior, Mapper, Metrical, PlacePrior, PosteriorModel, PosteriorOrder,
+    PosteriorSearch, Proving, place_by_odometry,
+};
+use hssh_topology::{Axioms, Simplicity};
+use hssh_world::{DriftModel, cover, grid, random_planar, snake};
+
+const AREA: f64 = 600.0;
+
+fn planar() -> Axioms {
+    Axioms { max_genus: Some(0), ..Axioms::default() }
+}
+
+fn snake_in_grid(rows: u32, columns: u32, noise: f64, seed: u64) -> Exploration {
+    let world = grid(rows, columns, 8.0).unwrap();
+    let route = world.route_through(&snake(rows, columns)).unwrap();
+    let usual = DriftModel::default();
+    let drift = DriftModel {
+        distance: noise * usual.distance,
+        heading: noise * usual.heading,
+        turn: noise * usual.turn,
+        position_fix: noise * usual.position_fix,
+        heading_fix: noise * usual.heading_fix,
+    };
+    world.explore_with_odometry(&route, &drift, seed).unwrap()
+}
+
+fn all_of(search: PosteriorSearch) -> PosteriorSearch {
+    PosteriorSearch { order: PosteriorOrder::Proof(Proving { best: usize::MAX, rest: 1.0 }), ..search }
+}
+
+fn evidence(prior: MapPrior) -> PosteriorModel {
+    let uniform = UniformPrior::over_area(AREA).unwrap();
+    PosteriorModel { metrical: Metrical::Evidence(PlacePrior::Uniform(uniform)), prior }
+}
+
+/// Breadth-first finds every map; each is laid out from scratch and scored by (4.18).
+fn best_by_enumeration(
+    exploration: &Exploration,
+    axioms: &Axioms,
+    weights: Simplicity,
+) -> Vec<(f64, Vec<u32>)> {
+    let mapper = Mapper::builder().axioms(*axioms).explain(exploration).unwrap();
+    let (experience, mut cursor) =
+        (Experience::from(exploration), Cursor::new(&Experience::from(exploration)));
+    let mut scored: Vec<(f64, Vec<u32>)> = mapper
+        .maps(usize::MAX)
+        .iter()
+        .map(|map| {
+            let visits = mapper.visits(map.node);
+            let chi2 = place_by_odometry(exploration, &visits).unwrap().unwrap().chi2;
+            let f = weights.of(&cursor.go_to(map.node, mapper.tree(), &experience).map);
+            (chi2 / 2.0 + f.ln(), visits.iter().map(|visit| visit.place.0).collect())
+        })
+        .collect();
+    scored.sort_by(|a, b| a.0.total_cmp(&b.0));
+    scored
+}
+
+#[test]
+fn the_proof_finds_what_an_enumeration_finds() {
+    let world = random_planar(7, 0.7, 10.0, 7).unwrap();
+    let route = cover(&world, 3).unwrap();
+    let random = world.explore_with_odometry(&route, &DriftModel::default(), 5).unwrap();
+    let cases = [
+        (snake_in_grid(3, 3, 1.0, 1), planar()),
+        (snake_in_grid(3, 3, 3.0, 2), Axioms::default()),
+        (snake_in_grid(3, 4, 2.0, 3), planar()),
+        (random, planar()),
+    ];
+    for (exploration, axioms) in cases {
+        for weights in [Simplicity::default(), Simplicity { c1: 3.0, c2: 2.0, c3: 1.0 }] {
+            let expected = best_by_enumeration(&exploration, &axioms, weights);
+            let model =
+                PosteriorModel { metrical: Metrical::Likelihood, prior: MapPrior::Simplicity(weights) };
+            let search = PosteriorSearch { axioms, ..PosteriorSearch::new(model) };
+            let posterior = search.explain(&exploration).unwrap();
+            let best = &posterior.maps()[0];
+            let places: Vec<u32> = posterior.visits(best).iter().map(|visit| visit.place.0).collect();
+            assert!(posterior.report().proved, "{}", posterior.report());
+            assert!((best.cost.total() - expected[0].0).abs() < 1e-5, "{:?} {:?}", best.cost, expected[0]);
+            assert_eq!(places, expected[0].1);
+
+            let all = all_of(search).explain(&exploration).unwrap();
+            assert_eq!(all.maps().len(), expected.len());
+            // Layouts that are bent out of all measure have local minima.
+            let sound = expected.iter().take_while(|(cost, _)| *cost < expected[0].0 + 100.0);
+            for (map, (cost, _)) in all.maps().iter().zip(sound) {
+                assert!((map.cost.total() - cost).abs() < 1e-4 * (1.0 + cost), "{:?} {cost}", map.cost);
+            }
+        }
+    }
+}
+
+/// What was promised while a map was still growing is kept: no bound is above what comes of it, so that a
+/// search that keeps everything finds nothing better than one that stops at the proof.
+#[test]
+fn no_map_is_better_than_the_proved_one() {
+    for (seed, noise) in [(1, 0.3), (2, 1.0), (3, 2.0), (4, 4.0)] {
+        let exploration = snake_in_grid(3, 3, noise, seed);
+        for prior in [MapPrior::Flat, MapPrior::Choices, MapPrior::Simplicity(Simplicity::default())] {
+            for goal in [Goal::AnyMap, Goal::ClosedMap] {
+                let search = PosteriorSearch { goal, ..PosteriorSearch::new(evidence(prior)) };
+                let proved = search.explain(&exploration).unwrap();
+                let all = all_of(search).explain(&exploration).unwrap();
+                assert_eq!(all.report().open_bound, None);
+                assert!(proved.report().expanded <= all.report().expanded);
+                let (best, first) = (&proved.maps()[0], &all.maps()[0]);
+                assert!((best.cost.total() - first.cost.total()).abs() < 1e-6);
+                let bound = proved.report().open_bound.unwrap_or(f64::INFINITY);
+                assert!(bound >= first.cost.total() - 1e-6);
+                // The probability that was promised at least is what the map has among all.
+                let range = best.least_probability - 1e-9..=best.probability + 1e-9;
+                assert!(range.contains(&first.probability), "{range:?} {}", first.probability);
+            }
+        }
+    }
+}
+
+/// The evidence that was summed up travel by travel is the integral (4.6) over the finished map's poses, but for
+/// where it was linearized.
+#[test]
+fn the_evidence_is_that_of_the_whole_pose_graph() {
+    for (noise, tolerance) in [(0.1, 0.01), (1.0, 0.3)] {
+        let exploration = snake_in_grid(3, 3, noise, 4);
+        let posterior = PosteriorSearch::new(evidence(MapPrior::Flat)).explain(&exploration).unwrap();
+        let best = &posterior.maps()[0];
+        let graph = posterior.pose_graph(best).unwrap();
+        let log_determinant = Marginals::new(&graph).unwrap().log_determinant();
+        let free = graph.free_poses() as f64;
+        let tau = std::f64::consts::TAU.ln();
+        let travels = exploration.travels().len() as f64;
+        let informations: f64 = graph.edges().iter().map(|edge| edge.information.log_determinant()).sum();
+        // SPEC: V^{-(n-1)} (2π)^{3(n-1)/2} |A|^{-1/2} exp(−χ²/2) ∏ (2π)^{-3/2} |C_i|^{-1/2}
+        let evidence = -free * (AREA * std::f64::consts::TAU).ln() + 1.5 * free * tau
+            - 0.5 * log_determinant
+            - 0.5 * graph.chi2()
+            + 0.5 * informations
+            - 1.5 * travels * tau;
+        let peaks = 0.5 * informations - 1.5 * travels * tau;
+        assert!(
+            (best.cost.total() - (peaks - evidence)).abs() < tolerance,
+            "{} {}",
+            best.cost.total(),
+            peaks - evidence
+        );
+    }
+}
+
+#[test]
+fn with_exact_odometry_the_true_map_wins() {
+    let exploration = snake_in_grid(4, 4, 0.05, 1);
+    let model = PosteriorModel::evidence(&exploration).unwrap();
+    let posterior = PosteriorSearch::new(model).explain(&exploration).unwrap();
+    assert_eq!((posterior.maps()[0].measure.f3, posterior.report().ties), (16, 1));
+    assert!(posterior.maps()[0].least_probability > 0.99 || posterior.report().rest > 0.01);
+}
+
+#[test]
+fn the_thesiss_search_selects_the_true_map() {
+    let exploration = snake_in_grid(4, 4, 0.5, 1);
+    let search = PosteriorSearch {
+        axioms: planar(),
+        order: PosteriorOrder::BestFirst,
+        goal: Goal::ClosedMap,
+        ..PosteriorSearch::new(PosteriorModel::THESIS)
+    };
+    let posterior = search.explain(&exploration).unwrap();
+    assert_eq!(posterior.maps()[0].measure.f3, 16);
+    assert!(posterior.maps()[0].closed);
+}
+
+#[test]
+fn a_travel_without_odometry_is_named() {
+    let world = grid(2, 2, 8.0).unwrap();
+    let exploration = world.explore(&world.route_through(&snake(2, 2)).unwrap()).unwrap();
+    let problem = PosteriorSearch::new(PosteriorModel::THESIS).explain(&exploration).unwrap_err();
+    assert_eq!(problem.to_string(), "travel 1 has no odometry; the posterior needs it for every travel");
+}
