@@ -2,7 +2,8 @@
 //!
 //! A [`Layout`] says where each place is drawn and which way each end of its star points, from measured
 //! poses or from the map alone. [`draw_map`] and [`map_to_dot`] draw one map, [`draw_tree`] and
-//! [`tree_to_dot`] a search tree in the manner of the thesis's Figure 2.5. Equal input gives equal text.
+//! [`tree_to_dot`] a search tree in the manner of the thesis's Figure 2.5, [`draw_pose_graph`] a pose graph with its
+//! closures and covariances. Equal input gives equal text.
 //!
 //! ```
 //! use hssh_draw::{Bearings, Layout, MapOptions, draw_map};
@@ -22,12 +23,16 @@
 //! ```
 
 mod curve;
+mod graph;
+mod grid;
 mod layout;
 mod map;
 mod palette;
 mod svg;
 mod tree;
 
+pub use graph::{EdgeKind, PoseGraphOptions, draw_pose_graph};
+pub use grid::{GridPicture, draw_grid};
 pub use layout::{Bearings, Layout, LayoutError};
 pub use map::{MapOptions, draw_map, map_to_dot};
 pub use tree::{Fate, SearchTree, Step, TreeError, TreeNode, TreeOptions, draw_tree, tree_to_dot};

@@ -1,6 +1,7 @@
 //! The solvers: the thesis's single linearization, Gauss–Newton, Levenberg–Marquardt, and both together.
 
 use crate::graph::PoseGraph;
+use crate::linear::Factor;
 use crate::linearization::{LinearizationPoint, NormalEquations};
 use crate::pose::Pose;
 use crate::solve::{Options, Solution, SolveError, StopReason, check};
@@ -105,7 +106,7 @@ struct Step {
     chi2: f64,
     /// By how much the linear model says χ² falls; exact for an undamped step.
     promised_fall: f64,
-    log_determinant: f64,
+    factor: Factor<3>,
 }
 
 impl<'a> Descent<'a> {
@@ -143,7 +144,7 @@ impl<'a> Descent<'a> {
         let promised_fall = increments.iter().zip(right_hand_side).map(|(a, b)| a * b).sum();
         let poses = self.equations.moved(&self.poses, &increments);
         let chi2 = self.graph.chi2_at(&poses);
-        Ok(Step { poses, chi2, promised_fall, log_determinant: factor.log_determinant() })
+        Ok(Step { poses, chi2, promised_fall, factor })
     }
 
     fn is_negligible(&self, step: &Step, options: &Options) -> bool {
@@ -167,7 +168,7 @@ impl<'a> Descent<'a> {
             poses: step.poses,
             initial_chi2: self.initial_chi2,
             chi2: step.chi2,
-            log_determinant: step.log_determinant,
+            log_determinant: step.factor.log_determinant(),
             iterations: self.iterations,
             stop,
         }

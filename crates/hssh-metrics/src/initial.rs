@@ -19,9 +19,9 @@ use crate::solve::{SolveError, check};
 /// As [`solve`](crate::solve): every component needs an anchored pose.
 pub fn odometry_poses(graph: &PoseGraph) -> Result<Vec<Pose>, SolveError> {
     check(graph)?;
-    let tree = spanning_tree(graph);
+    let closures = closures(graph);
     let mut neighbors = vec![Vec::new(); graph.poses().len()];
-    for edge in tree {
+    for (edge, _) in graph.edges().iter().zip(&closures).filter(|&(_, &closes)| !closes) {
         neighbors[edge.from.index()].push((edge.to, edge.relative_pose));
         neighbors[edge.to.index()].push((edge.from, edge.relative_pose.inverse()));
     }
@@ -39,17 +39,24 @@ pub fn odometry_poses(graph: &PoseGraph) -> Result<Vec<Pose>, SolveError> {
     Ok(poses.into_iter().map(|pose| pose.expect("every component has an anchored pose")).collect())
 }
 
-/// The edges that join what was not joined before, anchored poses being joined from the start.
-fn spanning_tree(graph: &PoseGraph) -> Vec<&Edge> {
+/// Whether each edge closes a loop: all do but those of the spanning tree along which [`odometry_poses`] goes,
+/// in the order of the graph's edges. Anchored poses count as joined from the start.
+#[must_use]
+pub fn closures(graph: &PoseGraph) -> Vec<bool> {
     let mut sets = DisjointSets::singletons(graph.poses().len());
     let anchored: Vec<_> = graph.pose_ids().filter(|&pose| graph.is_anchored(pose)).collect();
     for pair in anchored.windows(2) {
         sets.join(pair[0].0, pair[1].0);
     }
-    let is_consecutive = |edge: &&Edge| edge.from.0.abs_diff(edge.to.0) == 1;
-    let (chain, rest): (Vec<_>, Vec<_>) = graph.edges().iter().partition(is_consecutive);
-    let mut joins_two = |edge: &&Edge| sets.join(edge.from.0, edge.to.0);
-    chain.into_iter().chain(rest).filter(|edge| joins_two(edge)).collect()
+    let is_consecutive = |edge: &Edge| edge.from.0.abs_diff(edge.to.0) == 1;
+    let mut closes = vec![true; graph.edges().len()];
+    for consecutive in [true, false] {
+        let edges = graph.edges().iter().zip(&mut closes);
+        for (edge, closes) in edges.filter(|(edge, _)| is_consecutive(edge) == consecutive) {
+            *closes = !sets.join(edge.from.0, edge.to.0);
+        }
+    }
+    closes
 }
 
 /// Chordal relaxation: rotations as unconstrained pairs (cos θ, sin θ), which makes agreement with the

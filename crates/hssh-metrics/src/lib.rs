@@ -41,9 +41,12 @@
 //! appendix B.2, once or repeated; [`metrical_log_likelihood`] is (4.9) and [`laplace_log_evidence`] the
 //! integral (4.6) that it stands in for; [`Marginals`] says what is known of each pose, and what one more
 //! measurement would cost. If some measurements may be plainly wrong, [`screen_closures`] finds out which.
-//! [`relax`] lowers χ² without any large matrix.
+//! [`relax`] lowers χ² without any large matrix. Where poses at hand may be misleading, [`solve_from_anywhere`] finds
+//! the same minimum whatever they are. [`BayesNetwork`] is section 4.2: the model that all of this is about.
 
 mod angle;
+mod anywhere;
+mod bayes_network;
 mod components;
 mod descent;
 mod graduated;
@@ -61,15 +64,17 @@ mod text;
 mod uncertainty;
 
 pub use angle::wrap_angle;
+pub use anywhere::solve_from_anywhere;
+pub use bayes_network::{BayesNetwork, Observation, Variable};
 pub use graduated::{Screening, screen_closures};
 pub use graph::{Edge, GraphError, PoseGraph, PoseId};
-pub use initial::{chordal_poses, odometry_poses};
+pub use initial::{chordal_poses, closures, odometry_poses};
 pub use likelihood::{PriorError, UniformPrior, laplace_log_evidence, metrical_log_likelihood};
 pub use linearization::{LinearizationPoint, LinearizedEdge};
 pub use marginals::{Marginals, NewConstraint};
 pub use pose::Pose;
 pub use relaxation::{Relaxation, relax};
-pub use robust::{Kernel, RobustSolution, solve_robustly};
+pub use robust::{Kernel, RobustSolution, reweighted, solve_robustly};
 pub use solve::{Method, Options, Solution, SolveError, StopReason, solve};
 pub use text::{GraphFile, ReadError, ReadProblem, SkippedLine, read_pose_graph};
 pub use uncertainty::{Covariance, Information, UncertainPose, UncertaintyError};

@@ -1,6 +1,6 @@
 //! Covariances of the poses of a solved graph, and what one more measurement would change.
 
-use nalgebra::{Matrix3, Matrix6, SMatrix, Vector3, vector};
+use nalgebra::{DMatrix, Matrix3, Matrix6, SMatrix, Vector3, vector};
 
 use crate::angle::wrap_angle;
 use crate::graph::{PoseGraph, PoseId, quadratic_form};
@@ -19,7 +19,9 @@ pub struct Marginals {
     unknown: Vec<Option<usize>>,
     /// How many scalars are unknown.
     unknowns: usize,
-    factor: Factor,
+    factor: Factor<3>,
+    /// A⁻¹, if it was asked for.
+    table: Option<DMatrix<f64>>,
 }
 
 /// What one more measured relative pose would do to a solved graph, to first order.
@@ -48,7 +50,20 @@ impl Marginals {
             unknowns: 3 * graph.free_poses(),
             unknown: equations.into_unknowns(),
             factor,
+            table: None,
         })
+    }
+
+    /// The same with all covariances computed beforehand: worth it for many questions about a small graph, as
+    /// closures pose them.
+    ///
+    /// It solves for three right-hand sides per free pose and keeps 72 bytes for each pair of them; every question
+    /// is a look-up from then on.
+    #[must_use]
+    pub fn tabulated(mut self) -> Self {
+        let columns = (0..self.unknowns).flat_map(|unknown| self.column(unknown));
+        self.table = Some(DMatrix::from_iterator(self.unknowns, self.unknowns, columns));
+        self
     }
 
     /// ln |A|.
@@ -131,17 +146,34 @@ impl Marginals {
     /// The 3×3 blocks of A⁻¹ in the columns of one pose and the rows of others.
     fn blocks<const ROWS: usize>(&self, rows: [PoseId; ROWS], column: PoseId) -> [Matrix3<f64>; ROWS] {
         let mut blocks = [Matrix3::zeros(); ROWS];
-        let Some(unknown) = self.unknown[column.index()] else { return blocks };
-        for axis in 0..3 {
-            let mut unit = vec![0.0; self.unknowns];
-            unit[3 * unknown + axis] = 1.0;
-            let solved = self.factor.solve(&unit);
-            for (block, row) in blocks.iter_mut().zip(rows) {
-                if let Some(unknown) = self.unknown[row.index()] {
-                    block.column_mut(axis).copy_from_slice(&solved[3 * unknown..][..3]);
+        let Some(first) = self.unknown[column.index()].map(|block| 3 * block) else { return blocks };
+        let rows = rows.map(|row| self.unknown[row.index()].map(|block| 3 * block));
+        match &self.table {
+            Some(table) => {
+                for (block, row) in blocks.iter_mut().zip(rows) {
+                    if let Some(row) = row {
+                        block.copy_from(&table.fixed_view::<3, 3>(row, first));
+                    }
+                }
+            }
+            None => {
+                for axis in 0..3 {
+                    let solved = self.column(first + axis);
+                    for (block, row) in blocks.iter_mut().zip(rows) {
+                        if let Some(row) = row {
+                            block.column_mut(axis).copy_from_slice(&solved[row..row + 3]);
+                        }
+                    }
                 }
             }
         }
         blocks
+    }
+
+    /// One column of A⁻¹.
+    fn column(&self, unknown: usize) -> Vec<f64> {
+        let mut unit = vec![0.0; self.unknowns];
+        unit[unknown] = 1.0;
+        self.factor.solve(&unit)
     }
 }

@@ -104,7 +104,14 @@ pub(crate) fn edge_chi2(graph: &PoseGraph, poses: &[Pose]) -> impl Iterator<Item
 }
 
 /// The graph at other poses, with the information of every edge scaled; edges of weight zero are left out.
-pub(crate) fn reweighted(graph: &PoseGraph, poses: &[Pose], weights: &[f64]) -> PoseGraph {
+///
+/// With the weights of a [`RobustSolution`] it is the plain problem that has the same minimum; with those of a
+/// [`Screening`](crate::Screening), 1 and 0, it is the graph without the refused edges.
+///
+/// # Panics
+/// If there are fewer poses than the graph has.
+#[must_use]
+pub fn reweighted(graph: &PoseGraph, poses: &[Pose], weights: &[f64]) -> PoseGraph {
     let mut reweighted = PoseGraph::new();
     for pose in graph.pose_ids() {
         reweighted.add_pose(poses[pose.index()]);

@@ -13,8 +13,10 @@ use crate::measured::MeasuredTravel;
 /// The poses of all places in the frame of the first one.
 #[derive(Clone, PartialEq, Debug)]
 pub struct Placement {
-    /// By place: the frame in which the bearings of the star seen on the first visit are given.
-    pub poses: Vec<Pose>,
+    /// A pose for each place: the frame in which the bearings of the star seen on the first visit are given.
+    /// An edge for each measured travel. The first pose is anchored, the others are where least squares
+    /// puts them.
+    pub graph: PoseGraph,
     /// How badly the travels fit: χ² of the least squares solution.
     pub chi2: f64,
 }
@@ -74,5 +76,6 @@ pub fn place_by_odometry(
     let start = chordal_poses(&graph)?;
     graph.set_poses(start)?;
     let solution = solve(&graph, &Options::default())?;
-    Ok(Some(Placement { poses: solution.poses, chi2: solution.chi2 }))
+    graph.set_poses(solution.poses)?;
+    Ok(Some(Placement { graph, chi2: solution.chi2 }))
 }

@@ -5,6 +5,7 @@ use rand_chacha::ChaCha8Rng;
 use rand_distr::{Distribution, StandardNormal};
 
 use crate::geometry::{Point, wrap};
+use crate::noise::OdometryNoise;
 
 /// How odometry errs. Errors are random walks, so their variances grow in proportion to the
 /// distance driven and to the angle turned; what the robot misjudges at the two places is added.
@@ -31,9 +32,9 @@ impl Default for DriftModel {
     }
 }
 
-/// Why numbers are no drift model.
+/// Why numbers are no model of noise.
 #[derive(Clone, PartialEq, Debug, thiserror::Error)]
-#[error("the drift model's `{field}` is {value}, it must be {range} and finite")]
+#[error("the noise model's `{field}` is {value}, it must be {range} and finite")]
 pub struct DriftError {
     /// The field.
     pub field: &'static str,
@@ -46,13 +47,9 @@ pub struct DriftError {
 /// One independent cause of error: how x, y and θ move per standard deviation of it.
 type Source = [f64; 3];
 
-impl DriftModel {
-    /// Checks that no field is negative and that both fixes are positive, which makes every
-    /// covariance positive definite.
-    ///
-    /// # Errors
-    /// With the first field for which this does not hold.
-    pub fn check(&self) -> Result<(), DriftError> {
+impl OdometryNoise for DriftModel {
+    /// No field may be negative, and both fixes must be positive.
+    fn check(&self) -> Result<(), DriftError> {
         let DriftModel { distance, heading, turn, position_fix, heading_fix } = *self;
         for (field, value) in [("distance", distance), ("heading", heading), ("turn", turn)] {
             if !(value >= 0.0 && value.is_finite()) {
@@ -67,9 +64,7 @@ impl DriftModel {
         Ok(())
     }
 
-    /// The measured pose of the last point of `way` as seen from its first, both frames aligned
-    /// with the world, for a robot that first turned by `turn` radians (not negative) at the place.
-    pub(crate) fn measure(&self, turn: f64, way: &[Point], random: &mut ChaCha8Rng) -> Odometry {
+    fn measure(&self, turn: f64, way: &[Point], random: &mut ChaCha8Rng) -> Odometry {
         let (start, end) = (way[0], way[way.len() - 1]);
         let mut pose = [end.x - start.x, end.y - start.y, 0.0];
         let mut covariance = [[0.0; 3]; 3];
@@ -84,7 +79,9 @@ impl DriftModel {
         }
         Odometry { x: pose[0], y: pose[1], theta: wrap(pose[2]), covariance }
     }
+}
 
+impl DriftModel {
     /// All causes of error, to first order, as they show in the arrival pose.
     fn sources(&self, turn: f64, way: &[Point]) -> Vec<Source> {
         let end = way[way.len() - 1];
@@ -208,7 +205,7 @@ mod tests {
         let wrong = DriftModel { position_fix: 0.0, ..DriftModel::default() };
         assert_eq!(
             wrong.check().unwrap_err().to_string(),
-            "the drift model's `position_fix` is 0, it must be positive and finite"
+            "the noise model's `position_fix` is 0, it must be positive and finite"
         );
         assert!(DriftModel { turn: f64::NAN, ..DriftModel::default() }.check().is_err());
         assert!(DriftModel { heading: -0.1, ..DriftModel::default() }.check().is_err());

@@ -6,8 +6,8 @@ use hssh_causal::{Exploration, NamedStar, Odometry, StarType, Travel};
 use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
 
-use crate::drift::DriftModel;
 use crate::geometry::wrap;
+use crate::noise::OdometryNoise;
 use crate::route::{Route, RouteError};
 use crate::world::{Gateway, Place, World};
 
@@ -32,17 +32,17 @@ impl World {
     /// What a robot on this route sees, does and measures.
     ///
     /// Each travel's odometry is the arrival place's frame as seen from the departure place's
-    /// frame, disturbed as the drift model says. The same arguments give the same exploration.
+    /// frame, disturbed as the model of noise says. The same arguments give the same exploration.
     ///
     /// # Errors
-    /// As [`World::explore`], and if the drift model is none.
+    /// As [`World::explore`], and if the model is none.
     pub fn explore_with_odometry(
         &self,
         route: &Route,
-        drift: &DriftModel,
+        noise: &impl OdometryNoise,
         seed: u64,
     ) -> Result<Exploration, RouteError> {
-        drift.check()?;
+        noise.check()?;
         let crossings = self.follow_route(route)?;
         let mut random = ChaCha8Rng::seed_from_u64(seed);
         let mut heading = None; // how the robot stands at the place; unknown before the first travel
@@ -52,7 +52,7 @@ impl World {
                 let turn = heading.map_or(0.0, |heading| wrap(self.bearing(exit) - heading).abs());
                 heading = Some(self.bearing(entry) + PI);
                 let way = self.way(exit)?;
-                Some(drift.measure(turn, &way, &mut random))
+                Some(noise.measure(turn, &way, &mut random))
             })
             .collect();
         Ok(self.write_down(route, &crossings, odometry))
@@ -77,7 +77,7 @@ impl World {
             })
             .collect();
         Exploration::new(star_types, start, travels).expect(
-            "names are made unique, links join gateways, and a checked drift model has positive variances",
+            "names are made unique, links join gateways, and a checked model of noise has positive variances",
         )
     }
 
@@ -126,7 +126,7 @@ fn is_numbered(name: &str, stem: &str) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{grid, momepy, random_planar, random_walk, snake};
+    use crate::{DriftModel, grid, momepy, random_planar, random_walk, snake};
 
     #[test]
     fn what_is_written_down_is_what_is_there() {

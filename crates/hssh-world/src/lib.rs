@@ -1,9 +1,10 @@
 //! Simulated worlds and routes through them; knows nothing of the mapper.
 //!
 //! A [`World`] is the truth that a mapper is asked to find: places with positions and stars, and
-//! links between their gateways. Build one with [`grid`], [`random_planar`] or from a
+//! links between their gateways. Build one with [`grid`], [`offices`], [`random_planar`] or from a
 //! [`StreetNetwork`]; send a robot through it on a [`Route`]; [`World::explore`] writes down what
-//! the robot saw and did, and nothing else.
+//! the robot saw and did, and nothing else. What it measures on the way errs as [`PolarNoise`] or
+//! [`DriftModel`] says: [`World::explore_with_odometry`].
 //!
 //! All place frames are aligned with the world: x points east, y north, both in metres.
 //!
@@ -25,7 +26,10 @@ mod geometry;
 pub mod graphml;
 mod grid;
 pub mod momepy;
+mod noise;
+mod offices;
 mod path;
+mod polar;
 mod random;
 mod route;
 pub mod strategies;
@@ -36,7 +40,10 @@ mod world;
 pub use drift::{DriftError, DriftModel};
 pub use geometry::Point;
 pub use grid::{grid, snake, thesis_3x4};
+pub use noise::OdometryNoise;
+pub use offices::{OfficePlan, offices};
 pub use path::Path;
+pub use polar::PolarNoise;
 pub use random::random_planar;
 pub use route::{Route, RouteError};
 pub use streets::{Crossing, Street, StreetError, StreetNetwork, StreetProblem};

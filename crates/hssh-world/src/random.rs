@@ -63,7 +63,7 @@ pub fn random_planar(places: u32, density: f64, spacing: f64, seed: u64) -> Resu
 }
 
 /// The edges that join two components when they come up, and `density` of the others.
-fn thin_out(places: usize, edges: &[[usize; 2]], density: f64) -> Vec<[usize; 2]> {
+pub(crate) fn thin_out(places: usize, edges: &[[usize; 2]], density: f64) -> Vec<[usize; 2]> {
     let mut component: Vec<usize> = (0..places).collect();
     let (mut kept, mut others) = (Vec::new(), Vec::new());
     for &[from, to] in edges {

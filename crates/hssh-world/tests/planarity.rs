@@ -4,7 +4,9 @@ use std::collections::BTreeSet;
 use std::fs;
 use std::path::PathBuf;
 
-use hssh_world::{Gateway, Point, World, cover, graphml, momepy, random_planar, strategies};
+use hssh_world::{
+    Gateway, OfficePlan, Point, World, cover, graphml, momepy, offices, random_planar, strategies,
+};
 use proptest::prelude::*;
 use robust::{Coord, orient2d};
 
@@ -39,7 +41,13 @@ fn cross(a: [Point; 2], b: [Point; 2]) -> bool {
     };
     let shared = a.iter().filter(|&point| b.contains(point)).count();
     let separates = |s: [Point; 2], t: [Point; 2]| side(s[0], s[1], t[0]) * side(s[0], s[1], t[1]);
-    shared == 0 && separates(a, b) <= 0 && separates(b, a) <= 0
+    // On one line they meet only if their extents do.
+    let extents_meet = |axis: fn(Point) -> f64| {
+        let [low, high] = [f64::min, f64::max].map(|pick| [a, b].map(|s| pick(axis(s[0]), axis(s[1]))));
+        low[0].max(low[1]) <= high[0].min(high[1])
+    };
+    let extents = extents_meet(|point| point.x) && extents_meet(|point| point.y);
+    shared == 0 && extents && separates(a, b) <= 0 && separates(b, a) <= 0
 }
 
 fn segments(world: &World) -> Vec<[Point; 2]> {
@@ -73,6 +81,16 @@ proptest! {
         if places >= 3 {
             prop_assert!((2 * places as usize - 3..=3 * places as usize - 6 + usize::from(places == 3)).contains(&links(1.0)));
         }
+    }
+
+    #[test]
+    fn office_floors_are_planar_and_connected(rows in 1u32..6, columns in 2u32..6, loops in 0.0..=1.0, doors in 0u32..5, seed: u64) {
+        let plan = OfficePlan { rows, columns, loops, doors, spacing: 16.0 };
+        let world = offices(&plan, seed).unwrap();
+        prop_assert_eq!(euler_characteristic(&world), 2);
+        prop_assert_eq!(crossings(&world), 0);
+        prop_assert!(cover(&world, seed).is_ok());
+        prop_assert_eq!(offices(&plan, seed), Ok(world));
     }
 
     #[test]

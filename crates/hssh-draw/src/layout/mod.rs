@@ -9,8 +9,9 @@ pub use directions::Bearings;
 
 use hssh_metrics::{Pose, SolveError};
 use hssh_topology::{MapOlp, PlaceId, StarId, TopologicalMap};
-use nalgebra::vector;
+use nalgebra::{Matrix2, vector};
 
+use crate::graph::ellipse_95;
 use crate::svg::Point;
 
 /// A pose for each place of a map and a direction for each end of its stars.
@@ -24,6 +25,8 @@ pub struct Layout {
     /// By oriented local path: the place it belongs to and its direction in that place's frame.
     ends: Vec<(PlaceId, f64)>,
     unit: f64,
+    /// By place, where known: m², along the layout's axes.
+    covariances: Vec<Matrix2<f64>>,
 }
 
 /// Why there is no layout.
@@ -93,7 +96,7 @@ impl Layout {
         }
         let ends = directions::of_map(map, bearings)?;
         let unit = median_link_length(map, &poses);
-        Ok(Layout { poses, ends, unit })
+        Ok(Layout { poses, ends, unit, covariances: Vec::new() })
     }
 
     /// A layout from the map alone: links about 1 long, paths as straight as they can be, places apart.
@@ -108,7 +111,20 @@ impl Layout {
     pub fn schematic(map: &TopologicalMap, bearings: &Bearings) -> Result<Self, LayoutError> {
         let ends = directions::of_map(map, bearings)?;
         let poses = schematic::poses(map, &ends)?;
-        Ok(Layout { poses, ends, unit: 1.0 })
+        Ok(Layout { poses, ends, unit: 1.0, covariances: Vec::new() })
+    }
+
+    /// The same layout with the covariances of the places' positions, in the order of the places: drawn as
+    /// ellipses that hold the true position with a probability of 95 %.
+    #[must_use]
+    pub fn with_covariances(self, covariances: Vec<Matrix2<f64>>) -> Self {
+        Layout { covariances, ..self }
+    }
+
+    /// The corners of the ellipse that holds a place with a probability of 95 %, if it is known and there is one.
+    pub(crate) fn ellipse(&self, place: PlaceId) -> Option<Vec<Point>> {
+        let around = ellipse_95(self.covariances.get(place.index())?)?;
+        Some(around.into_iter().map(|offset| self.position(place) + offset).collect())
     }
 
     /// Position and heading of a place.

@@ -22,7 +22,8 @@ const NAME_SIZE: f64 = 11.0;
 ///
 /// Places are numbered circles with their ends in the star's clockwise order: dots are linked gateways,
 /// arrows with a hollow tip pending ones, blunt bars closed ends. Links have the color of their path;
-/// what belongs to a path with a single place is gray. `layout` must have been made for `map`.
+/// what belongs to a path with a single place is gray. Around a place, if its covariance is known, the ellipse that
+/// holds it with a probability of 95 %. `layout` must have been made for `map`.
 ///
 /// # Panics
 /// If the layout is of another map, with fewer places.
@@ -39,6 +40,7 @@ pub fn draw_map(map: &TopologicalMap, layout: &Layout, options: &MapOptions) -> 
     for place in map.places() {
         draw_place(&mut canvas, &scene, place, options);
     }
+    draw_ellipses(&mut canvas, &scene);
     if let Some(place) = options.current.filter(|&place| place.0 < map.place_count()) {
         let center = scene.on_canvas(layout.position(place));
         let distances = [0.1, 0.2, 0.34].map(|part| RADIUS + part * UNIT);
@@ -57,6 +59,21 @@ pub fn draw_map(map: &TopologicalMap, layout: &Layout, options: &MapOptions) -> 
     }
     draw_lines_of_text(&mut canvas, map, options);
     canvas.finish(MARGIN, options.title.as_deref().unwrap_or("Topological map"))
+}
+
+/// How sure the places' positions are.
+fn draw_ellipses(canvas: &mut Canvas, scene: &Scene) {
+    let ellipses: Vec<Vec<Point>> =
+        scene.map.places().filter_map(|place| scene.layout.ellipse(place)).collect();
+    if ellipses.is_empty() {
+        return;
+    }
+    canvas.open(r#"class="covariance""#);
+    for corners in ellipses {
+        let corners: Vec<Point> = corners.into_iter().map(|corner| scene.on_canvas(corner)).collect();
+        canvas.polygon(&corners, r##"fill="#4a7ab5" fill-opacity="0.12" stroke="#4a7ab5" stroke-width="1""##);
+    }
+    canvas.close();
 }
 
 fn draw_place(canvas: &mut Canvas, scene: &Scene, place: PlaceId, options: &MapOptions) {

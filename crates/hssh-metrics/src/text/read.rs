@@ -84,6 +84,9 @@ pub enum ReadProblem {
         /// What is wrong with it.
         problem: UncertaintyError,
     },
+    /// An edge from a pose to itself.
+    #[error("the edge leads from pose {0} to itself: it says nothing about where the pose is, leave it out")]
+    SelfEdge(u64),
     /// The edge does not fit into the graph; poses are named by [`PoseId`].
     #[error(transparent)]
     Edge(#[from] GraphError),
@@ -244,6 +247,9 @@ impl Fields<'_> {
         arrange: impl Fn([f64; 6]) -> Matrix3<f64>,
     ) -> Result<EdgeRecord, ReadProblem> {
         let (from, to) = (self.label("start pose")?, self.label("end pose")?);
+        if from == to {
+            return Err(ReadProblem::SelfEdge(from));
+        }
         let relative_pose = self.pose()?;
         let mut entries = [0.0; 6];
         for entry in &mut entries {

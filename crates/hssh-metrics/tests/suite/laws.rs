@@ -36,6 +36,7 @@ fn group_laws_hold() {
         assert!(distance(a.inverse().inverse(), a) < 1e-11);
         for b in awkward_poses() {
             assert!(distance(a.compose(a.between(b)), b) < 1e-11);
+            assert!(distance(a.compose(b).inverse(), b.inverse().compose(a.inverse())) < 1e-11);
             for c in awkward_poses() {
                 assert!(distance(a.compose(b).compose(c), a.compose(b.compose(c))) < 2e-11);
             }

@@ -2,10 +2,10 @@
 //! against integrals that are known.
 
 use hssh_metrics::{
-    Edge, Marginals, Options, Pose, PoseGraph, PoseId, UniformPrior, laplace_log_evidence,
-    metrical_log_likelihood, solve,
+    Edge, LinearizationPoint, LinearizedEdge, Marginals, Options, Pose, PoseGraph, PoseId, UniformPrior,
+    laplace_log_evidence, metrical_log_likelihood, solve,
 };
-use nalgebra::{DMatrix, Matrix3};
+use nalgebra::{DMatrix, DVector, Matrix3};
 use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
 
@@ -86,6 +86,59 @@ fn the_price_of_a_closure_is_what_solving_again_shows() {
     assert!((price.chi2_rise - rise).abs() < 0.02 * rise, "{} {rise}", price.chi2_rise);
     let rise = after.log_determinant - before.log_determinant;
     assert!((price.log_determinant_rise - rise).abs() < 0.02 * rise, "{} {rise}", price.log_determinant_rise);
+}
+
+/// The rank-3 update against the whole linear system with the closure in it, (B.11), dense and solved by LU.
+#[test]
+fn the_price_of_a_closure_is_that_of_the_whole_linear_system() {
+    let mut random = ChaCha8Rng::seed_from_u64(3);
+    for (seed, poses) in [(71, 8), (72, 30), (73, 100)] {
+        let mut graph = random_graph(seed, poses, poses / 3, 0.02);
+        let exactly = Options { tolerance: 1e-26, max_iterations: 30, ..Options::default() };
+        graph.set_poses(solve(&graph, &exactly).unwrap().poses).unwrap();
+        let (plain, tabulated) =
+            (Marginals::new(&graph).unwrap(), Marginals::new(&graph).unwrap().tabulated());
+        for (from, to) in [(0, poses - 1), (poses - 1, 2), (poses / 2, 1)] {
+            let (from, to) = (PoseId(from), PoseId(to));
+            let covariance = generic_covariance(&mut random);
+            let measured = graph.pose(from).between(graph.pose(to)).compose(Pose::new(0.4, -0.3, 0.2));
+            let expected = dense_price(&graph, &Edge::observed(from, to, measured, &covariance));
+            for marginals in [&plain, &tabulated] {
+                let price = marginals.new_constraint(from, to, measured, &covariance);
+                for (found, expected) in
+                    [(price.chi2_rise, expected.0), (price.log_determinant_rise, expected.1)]
+                {
+                    assert!((found - expected).abs() < 1e-9 * (1.0 + expected.abs()), "{found} {expected}");
+                }
+            }
+        }
+    }
+}
+
+/// By how much the minimum of the linearized χ² and ln |A| rise when an edge is added to a graph at its minimum.
+fn dense_price(graph: &PoseGraph, closure: &Edge) -> (f64, f64) {
+    let size = 3 * graph.poses().len();
+    let system = |edges: &[Edge]| {
+        let (mut a, mut b, mut chi2) = (DMatrix::<f64>::zeros(size, size), DVector::<f64>::zeros(size), 0.0);
+        for edge in edges {
+            let (start, end) = (graph.pose(edge.from), graph.pose(edge.to));
+            let linearized = LinearizedEdge::new(edge, start, end, LinearizationPoint::Estimate);
+            let mut jacobian = DMatrix::<f64>::zeros(3, size);
+            jacobian.fixed_view_mut::<3, 3>(0, 3 * edge.from.index()).copy_from(&linearized.by_start);
+            jacobian.fixed_view_mut::<3, 3>(0, 3 * edge.to.index()).copy_from(&linearized.by_end);
+            let weight = edge.start_frame_information();
+            a += jacobian.transpose() * weight.matrix() * &jacobian;
+            b -= jacobian.transpose() * (weight.matrix() * linearized.residual);
+            chi2 += linearized.residual.dot(&(weight.matrix() * linearized.residual));
+        }
+        let (a, b) = (a.view((3, 3), (size - 3, size - 3)).into_owned(), b.rows(3, size - 3).into_owned());
+        let step = a.clone().lu().solve(&b).unwrap();
+        let log_determinant: f64 = a.lu().u().diagonal().map(|entry| entry.abs().ln()).sum();
+        (chi2 - b.dot(&step), log_determinant)
+    };
+    let edges = graph.edges().to_vec();
+    let (before, after) = (system(&edges), system(&[edges, vec![*closure]].concat()));
+    (after.0 - before.0, after.1 - before.1)
 }
 
 /// Every pose of a tree integrates out to one, whatever the covariances: what is left is the prior.

@@ -3,6 +3,7 @@
 // In tests a failed unwrap is the failed assertion, in their helpers too.
 #![allow(clippy::unwrap_used)]
 
+mod bayes_network;
 mod laws;
 mod likelihood;
 mod linearization;

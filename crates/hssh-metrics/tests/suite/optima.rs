@@ -4,6 +4,7 @@ use std::io::BufReader;
 
 use hssh_metrics::{
     GraphFile, Options, Pose, PoseGraph, Solution, chordal_poses, odometry_poses, read_pose_graph, solve,
+    solve_from_anywhere,
 };
 
 /// File, poses, edges, χ² at the best known optimum; whether dead reckoning, and the file's poses if it has
@@ -68,6 +69,16 @@ fn the_poses_of_the_mit_file_are_the_known_trap() {
     let Some(GraphFile { graph, .. }) = read("MIT.g2o") else { return };
     let solution = solve_from(&graph, graph.poses().to_vec());
     assert!(solution.is_converged() && (solution.chi2 - 770.66).abs() < 0.01, "{}", solution.chi2);
+}
+
+#[test]
+fn every_optimum_is_reached_from_anywhere() {
+    for (name, _, _, chi2, _) in OPTIMA {
+        let Some(GraphFile { mut graph, .. }) = read(name) else { return };
+        assert_optimum(name, &solve_from_anywhere(&graph, &Options::default()).unwrap(), chi2);
+        graph.set_poses(odometry_poses(&graph).unwrap()).unwrap();
+        assert_optimum(name, &solve_from_anywhere(&graph, &Options::default()).unwrap(), chi2);
+    }
 }
 
 /// No reference is published for this file: two starts have to agree.

@@ -188,23 +188,24 @@ impl Posterior {
         &self.report
     }
 
-    /// The hypothesis of a map.
+    /// The hypothesis of a node of the tree.
     #[must_use]
-    pub fn hypothesis(&self, map: &ProbableMap) -> Hypothesis {
+    pub fn hypothesis(&self, node: NodeId) -> Hypothesis {
         let mut cursor = Cursor::new(&self.experience);
-        cursor.go_to(map.node, &self.tree, &self.experience);
+        cursor.go_to(node, &self.tree, &self.experience);
         cursor.into_hypothesis()
     }
 
-    /// Where the robot was in a map, after each travel, the start first.
+    /// Where the robot was in the map of a node, after each travel that it explains, the start first.
     #[must_use]
-    pub fn visits(&self, map: &ProbableMap) -> Vec<Position> {
-        Cursor::new(&self.experience).visits(map.node, &self.tree, &self.experience)
+    pub fn visits(&self, node: NodeId) -> Vec<Position> {
+        Cursor::new(&self.experience).visits(node, &self.tree, &self.experience)
     }
 
     /// What tells two maps apart.
     #[must_use]
     pub fn distinguish(&self, first: &ProbableMap, second: &ProbableMap) -> Distinction {
+        let [first, second] = [first.node, second.node];
         let hypotheses = [&self.hypothesis(first), &self.hypothesis(second)];
         distinguish(&self.experience.catalog, hypotheses, [&self.visits(first), &self.visits(second)])
     }
@@ -214,7 +215,7 @@ impl Posterior {
     #[must_use]
     pub fn pose_graph(&self, map: &ProbableMap) -> Option<PoseGraph> {
         let measured = self.measured.as_ref()?;
-        Some(measured.graph(&measured.frames.trail(self.visits(map)), &map.poses))
+        Some(measured.graph(&measured.frames.trail(self.visits(map.node)), &map.poses))
     }
 
     /// The tree of all hypotheses made.

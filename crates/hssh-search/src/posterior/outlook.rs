@@ -13,7 +13,7 @@ use crate::measured::Measured;
 
 /// The least share of a linear estimate of χ² that is taken to be its true value at least. The linear
 /// estimate of a rise of χ² holds for small turns; a layout that can turn at will may get away with less.
-pub const LINEAR_TRUST: f64 = 0.5;
+pub const LINEAR_TRUST: f64 = 0.1;
 
 /// Thresholds of χ²/2: the first, and the factor from one to the next.
 const FIRST_THRESHOLD: f64 = 0.5;

@@ -80,7 +80,7 @@ fn the_proof_finds_what_an_enumeration_finds() {
             let search = PosteriorSearch { axioms, ..PosteriorSearch::new(model) };
             let posterior = search.explain(&exploration).unwrap();
             let best = &posterior.maps()[0];
-            let places: Vec<u32> = posterior.visits(best).iter().map(|visit| visit.place.0).collect();
+            let places: Vec<u32> = posterior.visits(best.node).iter().map(|visit| visit.place.0).collect();
             assert!(posterior.report().proved, "{}", posterior.report());
             assert!((best.cost.total() - expected[0].0).abs() < 1e-5, "{:?} {:?}", best.cost, expected[0]);
             assert_eq!(places, expected[0].1);

@@ -1,0 +1,146 @@
+//! A grid with its medial axis, gateways and stars as an SVG picture.
+
+use std::f64::consts::FRAC_PI_2;
+use std::fmt::Write;
+
+use hssh_local::{AxisPoint, Gateway, Lattice, LocalStar, OccupancyGrid, Skeleton};
+
+use super::cells::data_uri;
+
+/// The longer side of the picture in pixels.
+const SIZE: f64 = 1200.0;
+
+/// Colors of local paths, in the order of their numbers.
+const LOCAL_PATHS: [&str; 5] = ["#d55e00", "#cc79a7", "#882255", "#332288", "#e69f00"];
+
+/// What is drawn over a grid; nothing is drawn of what is left out.
+#[derive(Clone, Debug, Default)]
+pub struct GridPicture<'a> {
+    /// The medial axis.
+    pub skeleton: Option<&'a Skeleton>,
+    /// Constrictions of the axis that belong to no place in particular.
+    pub constrictions: &'a [Gateway],
+    /// Places: a center in metres, with the star around it.
+    pub places: Vec<([f64; 2], &'a LocalStar)>,
+    /// Where the robot is, in metres.
+    pub robot: Option<[f64; 2]>,
+}
+
+/// Draws a grid as an SVG text of its own: free cells white, unknown ones gray, obstacles black. Each
+/// local path of a star has a color; a path that ends at the place ends in a bar there.
+#[must_use]
+pub fn draw_grid(grid: &OccupancyGrid, picture: &GridPicture<'_>) -> String {
+    let (width, height) = (f64::from(grid.lattice().width()), f64::from(grid.lattice().height()));
+    let scale = SIZE / width.max(height);
+    let mut drawing = Drawing { lattice: *grid.lattice(), text: String::new(), unit: 0.0 };
+    drawing.unit = (0.05 / grid.lattice().resolution()).max(1.0 / scale);
+    let _ = writeln!(
+        drawing.text,
+        r#"<svg xmlns="http://www.w3.org/2000/svg" xmlns:xlink="http://www.w3.org/1999/xlink" width="{:.0}" height="{:.0}" viewBox="0 0 {width} {height}">"#,
+        width * scale,
+        height * scale
+    );
+    let _ = writeln!(
+        drawing.text,
+        r#"<image width="{width}" height="{height}" style="image-rendering:pixelated" xlink:href="{}"/>"#,
+        data_uri(grid)
+    );
+    for edge in picture.skeleton.iter().flat_map(|skeleton| &skeleton.edges) {
+        drawing.axis(&edge.points);
+    }
+    for gateway in picture.constrictions {
+        drawing.line(gateway.line, "#009e73", 2.0);
+    }
+    for (number, (center, star)) in picture.places.iter().enumerate() {
+        drawing.star(*center, star, number);
+    }
+    if let Some(robot) = picture.robot {
+        drawing.disk(robot, 5.0, "#0072b2");
+    }
+    drawing.text + "</svg>\n"
+}
+
+struct Drawing {
+    lattice: Lattice,
+    text: String,
+    /// The width of a thin line, in cells: about 5 cm.
+    unit: f64,
+}
+
+impl Drawing {
+    /// A point in metres as columns from the left and rows from the top.
+    fn at(&self, point: [f64; 2]) -> [f64; 2] {
+        let [column, row] = self.lattice.continuous(point);
+        [column, f64::from(self.lattice.height()) - row]
+    }
+
+    fn axis(&mut self, points: &[AxisPoint]) {
+        let corner = |point: &AxisPoint| {
+            let [x, y] = self.at(point.point);
+            format!("{x:.1},{y:.1}")
+        };
+        let corners: Vec<String> = points.iter().map(corner).collect();
+        let _ = writeln!(
+            self.text,
+            r##"<polyline fill="none" stroke="#56b4e9" stroke-width="{:.1}" points="{}"/>"##,
+            1.5 * self.unit,
+            corners.join(" ")
+        );
+    }
+
+    fn line(&mut self, ends: [[f64; 2]; 2], color: &str, width: f64) {
+        let [[x1, y1], [x2, y2]] = ends.map(|end| self.at(end));
+        let _ = writeln!(
+            self.text,
+            r#"<line x1="{x1:.1}" y1="{y1:.1}" x2="{x2:.1}" y2="{y2:.1}" stroke="{color}" stroke-width="{:.1}" stroke-linecap="round"/>"#,
+            width * self.unit
+        );
+    }
+
+    fn disk(&mut self, center: [f64; 2], radius: f64, color: &str) {
+        let [x, y] = self.at(center);
+        let _ = writeln!(
+            self.text,
+            r#"<circle cx="{x:.1}" cy="{y:.1}" r="{:.1}" fill="{color}"/>"#,
+            radius * self.unit
+        );
+    }
+
+    /// Gateways across, local paths along, and the number of the place.
+    fn star(&mut self, center: [f64; 2], star: &LocalStar, number: usize) {
+        for ((end, &bearing), gateway) in star.star.ends().iter().zip(&star.bearings).zip(&star.gateways) {
+            let color = LOCAL_PATHS[end.name.local_path as usize % LOCAL_PATHS.len()];
+            match gateway {
+                Some(gateway) => {
+                    self.line(gateway.line, color, 2.0);
+                    self.line([center, gateway.position], color, 3.0);
+                    let tip = ahead(gateway.position, gateway.bearing, 12.0 * self.length());
+                    self.line([gateway.position, tip], color, 3.0);
+                }
+                None => {
+                    let stop = ahead(center, bearing, 10.0 * self.length());
+                    let bar =
+                        [FRAC_PI_2, -FRAC_PI_2].map(|turn| ahead(stop, bearing + turn, 5.0 * self.length()));
+                    self.line([center, stop], color, 3.0);
+                    self.line(bar, color, 3.0);
+                }
+            }
+        }
+        self.disk(center, 7.0, "#222222");
+        let [x, y] = self.at(center);
+        let _ = writeln!(
+            self.text,
+            r##"<text x="{x:.1}" y="{y:.1}" dy="0.35em" font-family="sans-serif" font-size="{:.1}" text-anchor="middle" fill="#ffffff">{number}</text>"##,
+            9.0 * self.unit
+        );
+    }
+
+    /// The width of a thin line in metres.
+    fn length(&self) -> f64 {
+        self.unit * self.lattice.resolution()
+    }
+}
+
+fn ahead(from: [f64; 2], bearing: f64, distance: f64) -> [f64; 2] {
+    [from[0] + distance * bearing.cos(), from[1] + distance * bearing.sin()]
+}

@@ -1,0 +1,27 @@
+//! Solving wherever the poses at hand are: from the edges alone, and from those poses only if they are better.
+
+use crate::graph::PoseGraph;
+use crate::initial::chordal_poses;
+use crate::solve::{Options, Solution, SolveError, solve};
+
+/// Minimizes χ² as [`solve`] does, but from [`chordal_poses`], so that the poses which the graph holds cannot lead
+/// into the valley of a local minimum.
+///
+/// Only if they fit better than what is found that way, to the solver's tolerance, a second descent starts from
+/// them. The result is therefore never worse than either start, and poses that are no better change nothing.
+///
+/// # Errors
+/// As [`solve`].
+pub fn solve_from_anywhere(graph: &PoseGraph, options: &Options) -> Result<Solution, SolveError> {
+    let mut anew = graph.clone();
+    anew.set_poses(chordal_poses(graph)?).expect("a graph has as many chordal poses as poses");
+    let from_edges = solve(&anew, options)?;
+    let margin = options.tolerance * (1.0 + from_edges.chi2);
+    if graph.chi2() < from_edges.chi2 - margin {
+        let from_poses = solve(graph, options)?;
+        if from_poses.chi2 < from_edges.chi2 {
+            return Ok(from_poses);
+        }
+    }
+    Ok(from_edges)
+}
