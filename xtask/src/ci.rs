@@ -33,6 +33,9 @@ fn experiments() -> Result<(), Box<dyn Error>> {
         json: false,
         threads: Some(0),
         data: None,
+        seeds: None,
+        seconds: None,
+        svg: None,
     })
 }
 

@@ -19,6 +19,12 @@ xflags::xflags! {
             optional --json
             /// Threads of each search, 0 for one per core; 1 if not given.
             optional --threads count: usize
+            /// With `chapter-4` and `scale`: seeds of each row; 50 and 5 if not given.
+            optional --seeds count: usize
+            /// With `scale`: seconds that one search may take; 60 if not given.
+            optional --seconds count: u64
+            /// With `chapter-4` and `scale`: the file to draw the plot into.
+            optional --svg file: PathBuf
             /// The folder with street networks; the environment variable HSSH_DATA if not given.
             optional --data folder: PathBuf
         }
@@ -27,10 +33,12 @@ xflags::xflags! {
             /// Print JSON instead of a table.
             optional --json
         }
-        /// Times the mapper: `speed`, `faces` or `proof`; all three if not given.
+        /// Times the mapper: `speed`, `faces` or `proof`, all three if not given; or pose graphs: `graphs`, `closures`.
         cmd bench {
             /// Which one.
             optional name: String
+            /// With `graphs`: the folder that contains `posegraph/`; the environment variable HSSH_DATA if not given.
+            optional data: PathBuf
             /// Runs of each measurement, of which the median counts; 5 if not given.
             optional --runs count: usize
             /// Seconds that one search with proof may take; 60 if not given.
@@ -43,12 +51,32 @@ xflags::xflags! {
             /// Its threads.
             required threads: usize
         }
+        /// Solves the same pose graphs with hssh, GTSAM and g2o (see xtask/scripts/peers.py) and compares the times.
+        cmd peers {
+            /// The folder that contains `posegraph/`; the environment variable HSSH_DATA if not given.
+            optional data: PathBuf
+            /// The Python interpreter that has gtsam and g2o; python3 if not given. May be given twice, if they
+            /// cannot live in one environment.
+            repeated --python interpreter: PathBuf
+            /// Solves of each file, after one that does not count; 9 if not given.
+            optional --runs count: usize
+        }
         /// Makes fixtures/aces.ron from the laser log of the ACES building.
         cmd aces {
             /// The folder that contains `logs/`.
             required data: PathBuf
             /// Where to write it; fixtures/aces.ron if not given.
             optional --out file: PathBuf
+        }
+        /// Measures gateways, places and stars on real grid maps against what is known of the buildings.
+        cmd grids {
+            /// The folder that contains `gridmap/` and `logs/`.
+            required data: PathBuf
+        }
+        /// Surveys real laser logs and compares what comes out with what is known of the buildings.
+        cmd log {
+            /// The folder that contains `logs/` and `gridmap/`.
+            required data: PathBuf
         }
         /// Checks what lints cannot: module sentences, file lengths, words, layers.
         cmd tidy {}

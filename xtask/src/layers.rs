@@ -20,10 +20,30 @@ const LAYERS: [(&str, &[&str]); 10] = [
     ("hssh-world", &["hssh-causal", "hssh-topology", "hssh-metrics", "hssh-local"]),
     ("hssh-draw", &["hssh-topology", "hssh-metrics", "hssh-local", "hssh-search"]),
     ("hssh-oracle", &["hssh-causal", "hssh-topology"]),
-    ("hssh", &["hssh-topology", "hssh-causal", "hssh-metrics", "hssh-local", "hssh-search", "hssh-world", "hssh-draw"]),
+    (
+        "hssh",
+        &[
+            "hssh-topology",
+            "hssh-causal",
+            "hssh-metrics",
+            "hssh-local",
+            "hssh-search",
+            "hssh-world",
+            "hssh-draw",
+        ],
+    ),
     (
         "xtask",
-        &["hssh-topology", "hssh-causal", "hssh-metrics", "hssh-local", "hssh-search", "hssh-world", "hssh-draw", "hssh"],
+        &[
+            "hssh-topology",
+            "hssh-causal",
+            "hssh-metrics",
+            "hssh-local",
+            "hssh-search",
+            "hssh-world",
+            "hssh-draw",
+            "hssh",
+        ],
     ),
 ];
 

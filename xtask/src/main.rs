@@ -8,7 +8,12 @@ mod ci;
 mod experiment;
 #[allow(unreachable_pub)] // generated
 mod flags;
+mod grids;
 mod layers;
+mod log;
+mod noisy;
+mod peers;
+mod pose_graphs;
 mod root;
 mod table;
 mod tidy;
@@ -33,12 +38,15 @@ fn run(command: XtaskCmd) -> Result<(), Box<dyn Error>> {
         XtaskCmd::Experiment(flags) => experiment::run(&flags),
         XtaskCmd::Branching(flags) => branching::run(&flags),
         XtaskCmd::Bench(flags) => bench::run(&flags),
+        XtaskCmd::Peers(flags) => peers::run(&flags),
         XtaskCmd::Measure(flags) => bench::speed::measure(&flags),
         XtaskCmd::Aces(flags) => {
             let out = flags.out.unwrap_or_else(|| root::fixtures().join("aces.ron"));
             println!("{}", aces::make(&flags.data, &out)?);
             Ok(())
         }
+        XtaskCmd::Grids(flags) => grids::run(&flags),
+        XtaskCmd::Log(flags) => log::run(&flags.data),
         XtaskCmd::Tidy(_) => tidy::run(),
         XtaskCmd::Ci(_) => ci::run(),
     }

@@ -50,6 +50,7 @@
 //! ```
 
 mod bearings;
+pub mod control;
 mod exploration;
 mod format;
 

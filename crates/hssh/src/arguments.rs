@@ -5,8 +5,14 @@ use std::sync::Arc;
 use std::time::Duration;
 
 use clap::{Args, Parser, Subcommand, ValueEnum};
-use hssh_search::{Goal, Limits, Mapper, MapperBuilder, Monitor, Strategy};
-use hssh_topology::{Axioms, GenusRank, Preference};
+use hssh_causal::Exploration;
+use hssh_local::{PlaceParameters, SkeletonParameters, UnknownSpace};
+use hssh_metrics::UniformPrior;
+use hssh_search::{
+    Corridor, Goal, Limits, MapPrior, Mapper, MapperBuilder, Metrical, Monitor, PlacePrior, PosteriorModel,
+    PosteriorOrder, PosteriorSearch, Proving, Strategy,
+};
+use hssh_topology::{Axioms, GenusRank, Preference, Simplicity};
 
 use crate::failure::Failure;
 
@@ -26,6 +32,12 @@ pub(crate) enum Command {
     Check(CheckOptions),
     /// Tell step by step how the best map explains an exploration.
     Explain(ExplainOptions),
+    /// Find the poses of a pose graph (g2o or TORO) that contradict its measurements least.
+    Graph(GraphOptions),
+    /// Find the places of a grid map: their gateways, their stars, and what connects them.
+    Stars(StarsOptions),
+    /// Make an exploration from a robot's laser log: find the places it visited, and their stars.
+    Explore(ExploreOptions),
 }
 
 #[derive(Debug, Args)]
@@ -56,6 +68,76 @@ pub(crate) struct MapOptions {
     /// Draw the search tree: DOT if the file ends in .dot, else SVG.
     #[arg(long, value_name = "FILE")]
     pub(crate) tree: Option<PathBuf>,
+    /// Write the pose graph of the best map, laid out, as g2o.
+    #[arg(long, value_name = "FILE")]
+    pub(crate) g2o: Option<PathBuf>,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct ExploreOptions {
+    /// The log: CARMEN text with FLASER messages, plain or gzip; `-` reads standard input.
+    pub(crate) log: PathBuf,
+    /// Where to write the exploration; without it, it is printed.
+    #[arg(short, long, value_name = "FILE")]
+    pub(crate) output: Option<PathBuf>,
+    /// Write the local map of each visit into this folder, as PNG, and as SVG with gateways and star.
+    #[arg(long, value_name = "FOLDER")]
+    pub(crate) debug_dir: Option<PathBuf>,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct StarsOptions {
+    /// The map: the YAML file of ROS `map_server`, or a floor plan as a PGM or PNG image.
+    pub(crate) map: PathBuf,
+    /// Metres per pixel of a floor plan without a YAML file.
+    #[arg(long, value_name = "METRES")]
+    pub(crate) resolution: Option<f64>,
+    /// Only the place around a point, in metres in the frame of the map, such as `--at=-1.5,20`.
+    #[arg(long, value_name = "X,Y", value_parser = point, allow_hyphen_values = true)]
+    pub(crate) at: Option<[f64; 2]>,
+    /// Passages narrower than this many metres are closed.
+    #[arg(long, value_name = "METRES", default_value_t = SkeletonParameters::default().narrowest_passage, value_parser = length)]
+    pub(crate) narrowest: f64,
+    /// Branches that are shallower than this many metres are no ways out.
+    #[arg(long, value_name = "METRES", default_value_t = SkeletonParameters::default().shallowest_branch, value_parser = length)]
+    pub(crate) shallowest: f64,
+    /// Obstacles no larger than this many metres are clutter.
+    #[arg(long, value_name = "METRES", default_value_t = SkeletonParameters::default().clutter, value_parser = length)]
+    pub(crate) clutter: f64,
+    /// Unknown cells are free, as in floor plans that only have walls.
+    #[arg(long)]
+    pub(crate) unknown_is_free: bool,
+    /// Print one JSON object.
+    #[arg(long)]
+    pub(crate) json: bool,
+    /// Draw the map with its medial axis, gateways and stars as SVG.
+    #[arg(long, value_name = "FILE")]
+    pub(crate) svg: Option<PathBuf>,
+}
+
+impl StarsOptions {
+    pub(crate) fn parameters(&self) -> PlaceParameters {
+        let unknown = if self.unknown_is_free { UnknownSpace::Free } else { UnknownSpace::Wall };
+        let skeleton = SkeletonParameters {
+            unknown,
+            clutter: self.clutter,
+            narrowest_passage: self.narrowest,
+            shallowest_branch: self.shallowest,
+            ..SkeletonParameters::default()
+        };
+        PlaceParameters { skeleton, ..PlaceParameters::default() }
+    }
+}
+
+fn point(text: &str) -> Result<[f64; 2], String> {
+    let number = |text: &str| text.trim().parse::<f64>().ok().filter(|number| number.is_finite());
+    let coordinates = text.split_once(',').and_then(|(x, y)| number(x).zip(number(y)));
+    coordinates.map(|(x, y)| [x, y]).ok_or_else(|| "write two numbers of metres, like 2.5,-1".to_owned())
+}
+
+fn length(text: &str) -> Result<f64, String> {
+    let metres = text.parse().ok().filter(|metres: &f64| metres.is_finite() && *metres >= 0.0);
+    metres.ok_or_else(|| "write a number of metres, like 0.8".to_owned())
 }
 
 #[derive(Debug, Args)]
@@ -81,6 +163,92 @@ pub(crate) struct ExplainOptions {
     pub(crate) json: bool,
 }
 
+#[derive(Debug, Args)]
+pub(crate) struct GraphOptions {
+    /// The pose graph: g2o, GTSAM's files of that form, or TORO; `-` reads standard input.
+    pub(crate) file: PathBuf,
+
+    /// How to minimize χ².
+    #[arg(long, value_enum, default_value_t = MethodOption::Safeguarded, value_name = "HOW", help_heading = "Solver")]
+    pub(crate) method: MethodOption,
+    /// Which poses to start from.
+    #[arg(long, value_enum, default_value_t = StartOption::Best, value_name = "WHERE", help_heading = "Solver")]
+    pub(crate) start: StartOption,
+    /// Stop after N linear systems (with relaxation: sweeps; with --robust: rounds as well).
+    #[arg(long, value_name = "N", help_heading = "Solver")]
+    pub(crate) max_iterations: Option<usize>,
+    /// Stop when χ² can fall by no more than this part of it.
+    #[arg(long, value_name = "PART", default_value_t = 1e-9, value_parser = positive, help_heading = "Solver")]
+    pub(crate) tolerance: f64,
+
+    /// Let closures count the less the worse they fit.
+    #[arg(long, value_enum, value_name = "KERNEL", help_heading = "Wrong closures")]
+    pub(crate) robust: Option<KernelOption>,
+    /// With --robust: from how many standard deviations on.
+    #[arg(long, value_name = "N", default_value_t = 3.0, value_parser = positive, requires = "robust", help_heading = "Wrong closures")]
+    pub(crate) deviations: f64,
+    /// Decide for each closure whether to believe it: graduated non-convexity.
+    #[arg(long, conflicts_with = "robust", help_heading = "Wrong closures")]
+    pub(crate) graduated: bool,
+    /// With --graduated: the χ² of a closure from which on it is refused. 11.34 refuses one correct closure in a
+    /// hundred.
+    #[arg(long, value_name = "CHI2", default_value_t = 11.34, value_parser = positive, requires = "graduated", help_heading = "Wrong closures")]
+    pub(crate) threshold: f64,
+
+    /// Print one JSON object.
+    #[arg(long, help_heading = "Output")]
+    pub(crate) json: bool,
+    /// Write the graph with its new poses, without refused closures.
+    #[arg(long, value_name = "FILE", help_heading = "Output")]
+    pub(crate) g2o: Option<PathBuf>,
+    /// Draw trajectory, closures and, of some poses, the covariance.
+    #[arg(long, value_name = "FILE", help_heading = "Output")]
+    pub(crate) svg: Option<PathBuf>,
+    /// Draw the Bayes network of poses and measurements as Graphviz DOT.
+    #[arg(long, value_name = "FILE", help_heading = "Output")]
+    pub(crate) dot: Option<PathBuf>,
+}
+
+/// How χ² is minimized.
+#[derive(Clone, Copy, PartialEq, Eq, Debug, ValueEnum)]
+pub(crate) enum MethodOption {
+    /// One linear system, as in the thesis's appendix B.
+    LinearizeOnce,
+    /// Full steps, whether or not χ² falls.
+    GaussNewton,
+    /// Full steps while χ² falls, then damped ones.
+    LevenbergMarquardt,
+    /// Gauss–Newton, guarded by Levenberg–Marquardt.
+    Safeguarded,
+    /// One pose after the other.
+    Relaxation,
+}
+
+/// Where a descent begins.
+#[derive(Clone, Copy, PartialEq, Eq, Debug, ValueEnum)]
+pub(crate) enum StartOption {
+    /// Chordal poses; the file's as well, if they fit better than what was found. With --robust and --graduated
+    /// dead reckoning, which wrong closures cannot spoil.
+    Best,
+    /// Chordal relaxation: from the edges alone.
+    Chordal,
+    /// The poses in the file.
+    File,
+    /// Dead reckoning.
+    Odometry,
+}
+
+/// How a measurement that fits badly loses its weight.
+#[derive(Clone, Copy, PartialEq, Eq, Debug, ValueEnum)]
+pub(crate) enum KernelOption {
+    /// It pulls with a constant force.
+    Huber,
+    /// It pulls the less the worse it fits.
+    Cauchy,
+    /// Dynamic covariance scaling: in the end it is switched off.
+    Dcs,
+}
+
 /// How the tree of hypotheses is searched.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, ValueEnum)]
 pub(crate) enum SearchKind {
@@ -92,6 +260,56 @@ pub(crate) enum SearchKind {
     Proof,
     /// Count all hypotheses in constant memory; lists no maps.
     Count,
+    /// The most probable maps given the measured travels, with a proof.
+    Posterior,
+    /// The most probable hypothesis first, as in the thesis: may miss the optimum.
+    PosteriorBestFirst,
+}
+
+/// How well a map fits the measured travels.
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Default, ValueEnum)]
+pub(crate) enum ScoreOption {
+    /// The density of the measurements whatever the layout, with a price for every new place.
+    #[default]
+    Evidence,
+    /// Their density at the most likely layout, as in the thesis.
+    Likelihood,
+    /// They do not count.
+    Ignored,
+}
+
+/// How probable a map is before anything is measured.
+#[derive(Clone, Copy, PartialEq, Eq, Debug, ValueEnum)]
+pub(crate) enum PriorOption {
+    /// All maps alike.
+    Flat,
+    /// In inverse proportion to F = c1·f1 + c2·f2' + c3·f3, as in the thesis.
+    Simplicity,
+    /// All extensions of a map alike, wherever there is a choice.
+    Choices,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct PosteriorOptions {
+    /// How measurements count.
+    #[arg(long, value_enum, value_name = "HOW", default_value_t = ScoreOption::Evidence, help_heading = "Posterior")]
+    pub(crate) score: ScoreOption,
+    /// What counts besides: flat with --score evidence, else simplicity.
+    #[arg(long, value_enum, value_name = "WHAT", help_heading = "Posterior")]
+    pub(crate) prior: Option<PriorOption>,
+    /// The weights of F: c1,c2,c3.
+    #[arg(long, value_name = "C1,C2,C3", value_delimiter = ',', num_args = 3, default_values_t = [0.0, 2.0, 1.0], help_heading = "Posterior")]
+    pub(crate) weights: Vec<f64>,
+    /// New places may be anywhere in that many square metres; without it, where corridors as long as those
+    /// travelled lead.
+    #[arg(long, value_name = "M2", value_parser = positive, help_heading = "Posterior")]
+    pub(crate) area: Option<f64>,
+    /// Prove the N best maps.
+    #[arg(long, value_name = "N", default_value_t = 1, help_heading = "Posterior")]
+    pub(crate) best: usize,
+    /// Go on until all maps not found have at most that probability together; 1 to stop at the proof.
+    #[arg(long, value_name = "P", default_value_t = 0.01, value_parser = positive, help_heading = "Posterior")]
+    pub(crate) rest: f64,
 }
 
 /// Where the genus stands in the order of preference.
@@ -103,17 +321,31 @@ pub(crate) enum GenusOption {
     Last,
 }
 
+/// What a command is to do with the tree of hypotheses.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub(crate) enum Task {
+    /// Find the maps that are preferred.
+    Prefer(Strategy),
+    /// Find the most probable maps.
+    Weigh(PosteriorOrder),
+    /// Count all hypotheses.
+    Count,
+}
+
 #[derive(Debug, Args)]
 pub(crate) struct SearchOptions {
-    /// How to search.
-    #[arg(long, value_enum, default_value_t = SearchKind::BreadthFirst, value_name = "HOW", help_heading = "Search")]
-    pub(crate) search: SearchKind,
-    /// With best-first and proof: accept closed maps only, and go back until there is one.
+    /// How to search: posterior if every travel has odometry, else breadth-first.
+    #[arg(long, value_enum, value_name = "HOW", help_heading = "Search")]
+    pub(crate) search: Option<SearchKind>,
+    /// Accept closed maps only, and go back until there is one; not with breadth-first and count.
     #[arg(long, help_heading = "Search")]
     pub(crate) closed: bool,
     /// Threads, 0 for one per core; the result does not depend on it.
     #[arg(long, default_value_t = 0, value_name = "N", help_heading = "Search")]
     pub(crate) threads: usize,
+
+    #[command(flatten)]
+    pub(crate) posterior: PosteriorOptions,
 
     /// Only maps that can be drawn in the plane: genus 0.
     #[arg(long, help_heading = "Axioms")]
@@ -154,6 +386,12 @@ pub(crate) struct SearchOptions {
     pub(crate) travels: Option<usize>,
 }
 
+fn positive(text: &str) -> Result<f64, String> {
+    let number: Option<f64> = text.parse().ok();
+    let is_right = |number: &f64| *number > 0.0 && number.is_finite();
+    number.filter(is_right).ok_or_else(|| "write a positive number, like 0.5".to_owned())
+}
+
 fn seconds(text: &str) -> Result<Duration, String> {
     let seconds: f64 = text.parse().map_err(|_| "write a number of seconds, like 10 or 0.5".to_owned())?;
     Duration::try_from_secs_f64(seconds).map_err(|_| "the time must be positive and finite".to_owned())
@@ -180,19 +418,89 @@ impl SearchOptions {
         Preference { genus }
     }
 
-    /// The mapper's strategy; `None` if maps are only to be counted.
-    pub(crate) fn strategy(&self) -> Result<Option<Strategy>, Failure> {
-        let goal = if self.closed { Goal::ClosedMap } else { Goal::AnyMap };
+    /// How to search that exploration.
+    pub(crate) fn kind(&self, exploration: &Exploration) -> SearchKind {
+        let is_measured = || exploration.travels().iter().all(|travel| travel.odometry.is_some());
         match self.search {
-            SearchKind::BestFirst => Ok(Some(Strategy::BestFirst(goal))),
-            SearchKind::Proof => Ok(Some(Strategy::Proof(goal))),
+            Some(kind) => kind,
+            None if exploration.travels().is_empty() || self.genus.is_some() => SearchKind::BreadthFirst,
+            None if is_measured() => SearchKind::Posterior,
+            None => SearchKind::BreadthFirst,
+        }
+    }
+
+    fn goal(&self) -> Goal {
+        if self.closed { Goal::ClosedMap } else { Goal::AnyMap }
+    }
+
+    /// How to search: by preference, by posterior, or only to count.
+    pub(crate) fn task(&self, exploration: &Exploration) -> Result<Task, Failure> {
+        let kind = self.kind(exploration);
+        match kind {
+            SearchKind::BestFirst => Ok(Task::Prefer(Strategy::BestFirst(self.goal()))),
+            SearchKind::Proof => Ok(Task::Prefer(Strategy::Proof(self.goal()))),
             SearchKind::BreadthFirst | SearchKind::Count if self.closed => Err(Failure::Usage(
-                "--closed goes with --search best-first and --search proof: the others find all maps, closed or not"
+                "--closed goes with --search posterior, best-first and proof: the others find all maps, closed or not"
                     .to_owned(),
             )),
-            SearchKind::BreadthFirst => Ok(Some(Strategy::BreadthFirst)),
-            SearchKind::Count => Ok(None),
+            SearchKind::BreadthFirst => Ok(Task::Prefer(Strategy::BreadthFirst)),
+            SearchKind::Count => Ok(Task::Count),
+            SearchKind::Posterior | SearchKind::PosteriorBestFirst if self.genus.is_some() => {
+                Err(Failure::Usage(
+                    "--genus belongs to the order of preference, which the posterior does not ask: use --planar or --max-genus"
+                        .to_owned(),
+                ))
+            }
+            SearchKind::Posterior => {
+                let proving = Proving { best: self.posterior.best, rest: self.posterior.rest };
+                Ok(Task::Weigh(PosteriorOrder::Proof(proving)))
+            }
+            SearchKind::PosteriorBestFirst => Ok(Task::Weigh(PosteriorOrder::BestFirst)),
         }
+    }
+
+    /// What makes a map probable.
+    pub(crate) fn model(&self, exploration: &Exploration) -> Result<PosteriorModel, Failure> {
+        let PosteriorOptions { score, prior, weights, area, .. } = &self.posterior;
+        let places = || match area {
+            Some(area) => UniformPrior::over_area(*area).ok().map(PlacePrior::Uniform),
+            None => Corridor::typical_of(exploration).map(PlacePrior::Corridor),
+        };
+        let metrical = match score {
+            ScoreOption::Likelihood => Metrical::Likelihood,
+            ScoreOption::Ignored => Metrical::Ignored,
+            // Without any measured distance nothing is laid out, and the search will say so.
+            ScoreOption::Evidence => places().map_or(Metrical::Likelihood, Metrical::Evidence),
+        };
+        let usual = if *score == ScoreOption::Evidence { PriorOption::Flat } else { PriorOption::Simplicity };
+        let prior = match prior.unwrap_or(usual) {
+            PriorOption::Flat => MapPrior::Flat,
+            PriorOption::Choices => MapPrior::Choices,
+            PriorOption::Simplicity => {
+                let [c1, c2, c3] = weights[..] else {
+                    return Err(Failure::Usage("--weights needs three numbers, like 0,2,1".to_owned()));
+                };
+                MapPrior::Simplicity(Simplicity { c1, c2, c3 })
+            }
+        };
+        Ok(PosteriorModel { metrical, prior })
+    }
+
+    /// The search by posterior.
+    pub(crate) fn weighing(
+        &self,
+        order: PosteriorOrder,
+        exploration: &Exploration,
+        monitor: &Arc<Monitor>,
+    ) -> Result<PosteriorSearch, Failure> {
+        Ok(PosteriorSearch {
+            model: self.model(exploration)?,
+            axioms: self.axioms(),
+            order,
+            goal: self.goal(),
+            limits: self.limits(),
+            monitor: Arc::clone(monitor),
+        })
     }
 
     /// How to search, but for the strategy.

@@ -6,7 +6,7 @@ use std::process::ExitCode;
 
 use hssh_causal::ParseError;
 use hssh_draw::{LayoutError, TreeError};
-use hssh_search::{PlacementError, ThreadsError};
+use hssh_search::{PlacementError, PosteriorError, ThreadsError};
 
 /// How a command ended that did what was asked.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -38,6 +38,14 @@ pub(crate) enum Failure {
     Write { file: PathBuf, error: std::io::Error },
     #[error("{rendered}")]
     Parse { rendered: String },
+    #[error("cannot read {}: {error}\nhelp: give the path of a pose graph in g2o or TORO form, or - for standard input", file.display())]
+    ReadGraph { file: PathBuf, error: std::io::Error },
+    #[error("{}: {error}", file.display())]
+    Graph { file: PathBuf, error: Box<hssh_metrics::ReadError> },
+    #[error("{} holds no pose graph in the plane: {skipped}\nhelp: records are `VERTEX_SE2`, `EDGE_SE2` and `FIX` (g2o) or `VERTEX2` and `EDGE2` (TORO)", file.display())]
+    EmptyGraph { file: PathBuf, skipped: String },
+    #[error("cannot solve the pose graph: {0}")]
+    Solve(#[from] hssh_metrics::SolveError),
     #[error(transparent)]
     Threads(#[from] ThreadsError),
     #[error("cannot lay out the map: {0}")]
@@ -46,12 +54,22 @@ pub(crate) enum Failure {
     Tree(#[from] TreeError),
     #[error("cannot place the map by its odometry: {0}")]
     Placement(#[from] PlacementError),
+    #[error("cannot weigh the maps: {0}\nhelp: --search breadth-first goes by topology alone")]
+    Posterior(#[from] PosteriorError),
+    #[error("there is no odometry to write as a pose graph")]
+    NoOdometry,
     #[error("there is no map number {asked}: only {found} {explain} the exploration", explain = if *found == 1 { "map explains" } else { "maps explain" })]
     NoSuchRank { asked: u32, found: usize },
     #[error(
         "the replay disagrees with the search: {0}\nhelp: this is a bug in hssh; please report it with the exploration"
     )]
     Disagreement(String),
+    #[error(transparent)]
+    Grid(#[from] hssh_local::MapError),
+    #[error("cannot use {}: {error}\nhelp: give the path of a CARMEN log with FLASER messages, plain or gzip, or - for standard input", file.display())]
+    ReadLog { file: PathBuf, error: hssh_local::LogError },
+    #[error("{}: {error}", file.display())]
+    Survey { file: PathBuf, error: hssh_local::SurveyError },
     #[error("{0}")]
     Usage(String),
     #[error("cannot print: {0}")]

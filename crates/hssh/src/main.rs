@@ -24,6 +24,9 @@ fn main() -> ExitCode {
         Command::Map(options) => command::map::run(&options),
         Command::Check(options) => command::check::run(&options),
         Command::Explain(options) => command::explain::run(&options),
+        Command::Graph(options) => command::graph::run(&options),
+        Command::Stars(options) => command::stars::run(&options),
+        Command::Explore(options) => command::explore::run(&options),
     };
     match done {
         Ok(status) => status.into(),

@@ -1,6 +1,8 @@
 //! Timings of whole processes and of the structures that carry the search.
 
+mod closures;
 mod faces;
+mod graphs;
 mod proof;
 pub(crate) mod speed;
 mod usage;
@@ -18,17 +20,22 @@ pub(crate) fn run(flags: &flags::Bench) -> Result<(), Box<dyn Error>> {
         Some("speed") => speed::run(runs),
         Some("faces") => faces::run(runs),
         Some("proof") => proof::run(limit),
+        Some("graphs") => graphs::run(flags.data.as_deref(), runs),
+        Some("closures") => closures::run(runs),
         None => {
             speed::run(runs)?;
             faces::run(runs)?;
             proof::run(limit)
         }
-        Some(other) => Err(format!("there is no benchmark `{other}`; there are: speed, faces, proof").into()),
+        Some(other) => {
+            let names = "speed, faces, proof, graphs, closures";
+            Err(format!("there is no benchmark `{other}`; there are: {names}").into())
+        }
     }
 }
 
 /// The middle value, the lower one of two; 0 of nothing.
-fn median(mut values: Vec<f64>) -> f64 {
+pub(crate) fn median(mut values: Vec<f64>) -> f64 {
     values.sort_by(f64::total_cmp);
     values.get((values.len().max(1) - 1) / 2).copied().unwrap_or(0.0)
 }

@@ -19,10 +19,14 @@ pub(crate) use schema::{RouteSource, WorldSource};
 pub(crate) use world::{Missing, case};
 
 use crate::flags;
+use crate::noisy;
 use crate::root;
 
 /// `cargo xtask experiment`.
 pub(crate) fn run(flags: &flags::Experiment) -> Result<(), Box<dyn Error>> {
+    if let Some(noisy) = flags.name.as_deref().and_then(noisy::named) {
+        return noisy(flags);
+    }
     let data = flags.data.clone().or_else(|| std::env::var_os("HSSH_DATA").map(PathBuf::from));
     let mut results = BTreeMap::new();
     let mut differences = 0;
@@ -37,6 +41,9 @@ pub(crate) fn run(flags: &flags::Experiment) -> Result<(), Box<dyn Error>> {
     if flags.json {
         println!("{}", serde_json::to_string_pretty(&results)?);
     }
+    if flags.all {
+        noisy::names().filter_map(|name| noisy::named(&name)).try_for_each(|run| run(flags))?;
+    }
     match differences {
         0 => Ok(()),
         _ if !flags.check => Ok(()),
@@ -48,6 +55,7 @@ pub(crate) fn run(flags: &flags::Experiment) -> Result<(), Box<dyn Error>> {
 /// The experiments that the command line asks for, by name.
 fn chosen(flags: &flags::Experiment) -> Result<Vec<(String, Experiment)>, Box<dyn Error>> {
     let names = names()?;
+    let all = || names.iter().cloned().chain(noisy::names()).collect::<Vec<_>>().join(", ");
     match &flags.name {
         None if flags.all => {
             let all = names.into_iter().map(|name| Ok((name.clone(), read(&name)?)));
@@ -55,8 +63,8 @@ fn chosen(flags: &flags::Experiment) -> Result<Vec<(String, Experiment)>, Box<dy
             Ok(all?.into_iter().filter(|(_, experiment)| flags.slow || !experiment.slow).collect())
         }
         Some(name) if names.contains(name) => Ok(vec![(name.clone(), read(name)?)]),
-        Some(name) => Err(format!("there is no experiment `{name}`; there are: {}", names.join(", ")).into()),
-        None => Err(format!("name an experiment, or pass --all; there are: {}", names.join(", ")).into()),
+        Some(name) => Err(format!("there is no experiment `{name}`; there are: {}", all()).into()),
+        None => Err(format!("name an experiment, or pass --all; there are: {}", all()).into()),
     }
 }
 

@@ -225,7 +225,9 @@ mod tests {
     fn a_graph_without_extent_is_drawn_too() {
         for poses in [0, 1, 2] {
             let mut graph = PoseGraph::new();
-            (0..poses).for_each(|_| drop(graph.add_pose(Pose::IDENTITY)));
+            for _ in 0..poses {
+                graph.add_pose(Pose::IDENTITY);
+            }
             let svg = draw_pose_graph(&graph, &PoseGraphOptions::default());
             assert!(svg.starts_with("<svg") && !svg.contains("NaN") && !svg.contains("inf"), "{svg}");
         }

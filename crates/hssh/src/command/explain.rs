@@ -1,12 +1,14 @@
 //! `hssh explain`: how a map explains an exploration, travel by travel, in words.
 
 use hssh_causal::Exploration;
-use hssh_search::Mapper;
-use hssh_topology::{Discovery, MapSketch, Olp, Replay, ReplayedTravel, Star, violations};
+use hssh_search::{Experience, NodeId};
+use hssh_topology::{
+    Discovery, Hypothesis, MapSketch, Measure, Olp, Replay, ReplayedTravel, Star, violations,
+};
 use serde::Serialize;
 
-use crate::arguments::ExplainOptions;
-use crate::command::map::{search, status_of};
+use crate::arguments::{ExplainOptions, Task};
+use crate::command::map::{preferred, probable};
 use crate::failure::{Failure, Status};
 use crate::input::read_exploration;
 use crate::output::{print, print_json};
@@ -27,54 +29,70 @@ struct Explanation {
 pub(crate) fn run(options: &ExplainOptions) -> Result<Status, Failure> {
     let exploration = read_exploration(&options.file)?;
     let exploration = exploration.prefix(options.search.travels.unwrap_or(usize::MAX));
-    let Some(strategy) = options.search.strategy()? else {
-        return Err(Failure::Usage("counting keeps no maps to explain: choose another --search".to_owned()));
-    };
-    let mapper = search(&options.search, strategy, &exploration)?;
-    let (report, maps) = mapper.answer(options.rank as usize);
-    let status = status_of(&report);
-    if report.finals.final_maps == 0 {
-        if options.json {
-            print_json(&report)?;
-        } else {
-            print("No map explains the exploration.\n")?;
+    match options.search.task(&exploration)? {
+        Task::Count => {
+            Err(Failure::Usage("counting keeps no maps to explain: choose another --search".to_owned()))
         }
-        return Ok(status);
+        Task::Prefer(strategy) => {
+            let mapper = preferred::search(&options.search, strategy, &exploration)?;
+            let (report, maps) = mapper.answer(options.rank as usize);
+            let nodes: Vec<NodeId> = maps.iter().map(|map| map.node).collect();
+            let of = |node| mapper.hypothesis(node);
+            let explained = exploration.prefix(mapper.explained());
+            explain(options, &explained, mapper.experience(), of, &nodes, &report)?;
+            Ok(preferred::status_of(&report))
+        }
+        Task::Weigh(order) => {
+            let posterior = probable::search(&options.search, order, &exploration)?;
+            let nodes: Vec<NodeId> = posterior.maps().iter().map(|map| map.node).collect();
+            let of = |node| posterior.hypothesis(node);
+            explain(options, &exploration, posterior.experience(), of, &nodes, posterior.report())?;
+            Ok(probable::status_of(&posterior))
+        }
     }
-    let Some(map) = maps.get(options.rank as usize - 1) else {
-        return Err(Failure::NoSuchRank { asked: options.rank, found: maps.len() });
-    };
+}
 
-    let explained = exploration.prefix(mapper.explained());
-    let hypothesis = mapper.hypothesis(map.node);
-    let sketch = MapSketch::of(&hypothesis.map, &mapper.experience().catalog);
-    let replay = checked_replay(&sketch, &mapper, &explained, options)?;
-    let measure = map.measure;
+/// Explains the map that was asked for, of those found. `exploration` is what they explain.
+fn explain(
+    options: &ExplainOptions,
+    exploration: &Exploration,
+    experience: &Experience,
+    hypothesis: impl Fn(NodeId) -> Hypothesis,
+    nodes: &[NodeId],
+    report: &impl Serialize,
+) -> Result<(), Failure> {
+    if nodes.is_empty() {
+        return if options.json { print_json(report) } else { print("No map explains the exploration.\n") };
+    }
+    let Some(&node) = nodes.get(options.rank as usize - 1) else {
+        return Err(Failure::NoSuchRank { asked: options.rank, found: nodes.len() });
+    };
+    let map = hypothesis(node).map;
+    let (sketch, measure, closed) =
+        (MapSketch::of(&map, &experience.catalog), Measure::of(&map), map.is_closed());
+    let replay = checked_replay(&sketch, experience, exploration, options)?;
     if options.json {
-        let (rank, closed) = (options.rank, map.closed);
-        let (f1, f2, f3, genus) = (measure.f1, measure.f2, measure.f3, measure.genus);
-        print_json(&Explanation { rank, f1, f2, f3, genus, closed, map: sketch, replay })?;
-        return Ok(status);
+        let (rank, Measure { f1, f2, f3, genus }) = (options.rank, measure);
+        return print_json(&Explanation { rank, f1, f2, f3, genus, closed, map: sketch, replay });
     }
     let mut text = format!("Map {} of the ranking: {measure}.\n", options.rank);
-    let start = &explained.star_types()[explained.start().index()].name;
+    let start = &exploration.star_types()[exploration.start().index()].name;
     text += &format!("      start at place 0, a {start}.\n");
     for (index, step) in replay.travels.iter().enumerate() {
-        text += &format!("{:>4}. {}\n", index + 1, sentence(index, step, &explained, &sketch));
+        text += &format!("{:>4}. {}\n", index + 1, sentence(index, step, exploration, &sketch));
     }
-    text += &ending(&mapper, &sketch, map.closed);
-    print(&text)?;
-    Ok(status)
+    let missing = experience.observations.len() - exploration.travels().len();
+    text += &ending(missing, &sketch, closed);
+    print(&text)
 }
 
 /// Replays the exploration in the map by the independent checker, and has it look for violated axioms.
 fn checked_replay(
     sketch: &MapSketch,
-    mapper: &Mapper,
+    experience: &Experience,
     exploration: &Exploration,
     options: &ExplainOptions,
 ) -> Result<Replay, Failure> {
-    let experience = mapper.experience();
     let stars: Vec<Star> = experience.catalog.stars().cloned().collect();
     let observations = &experience.observations[..exploration.travels().len()];
     let replay = hssh_topology::replay(sketch, &stars, experience.start, observations)
@@ -108,14 +126,14 @@ fn sentence(index: usize, step: &ReplayedTravel, exploration: &Exploration, map:
     }
 }
 
-fn ending(mapper: &Mapper, map: &MapSketch, closed: bool) -> String {
+fn ending(missing: usize, map: &MapSketch, closed: bool) -> String {
     let places = map.places.len();
     let links = map.links.len();
     let rest = if closed { "no gateway is pending" } else { "some gateways are pending" };
     let checked = "An independent replay agrees: every star matches, every place and link is needed, no axiom is violated.";
-    let short = match mapper.experience().observations.len().checked_sub(mapper.explained()) {
-        Some(missing @ 1..) => format!(" A limit stopped the search {missing} travels before the end."),
-        _ => String::new(),
+    let short = match missing {
+        0 => String::new(),
+        _ => format!(" A limit stopped the search {missing} travels before the end."),
     };
     format!("      {places} places, {links} links; {rest}.{short}\n{checked}\n")
 }

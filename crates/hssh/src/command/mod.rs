@@ -2,4 +2,7 @@
 
 pub(crate) mod check;
 pub(crate) mod explain;
+pub(crate) mod explore;
+pub(crate) mod graph;
 pub(crate) mod map;
+pub(crate) mod stars;

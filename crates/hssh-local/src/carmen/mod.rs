@@ -1,0 +1,18 @@
+//! CARMEN logs: laser scans and odometry as robots of the 2000s recorded them, plain or compressed by gzip.
+//!
+//! | message | read as |
+//! |---|---|
+//! | `FLASER n r… x y θ x y θ t host t` | a scan, the corrected pose (for scoring only) and the raw odometry |
+//! | `ODOM x y θ …` | raw odometry between scans |
+//! | `PARAM name value …` | `robot_front_laser_max`: from here on a range means that nothing came back |
+//! | anything else | counted |
+
+mod error;
+mod log;
+mod message;
+mod reader;
+
+pub use error::{LogError, LogWarning, MessageProblem};
+pub use log::{LaserLog, LoggedScan};
+pub use message::{LaserMessage, Message};
+pub use reader::LogReader;

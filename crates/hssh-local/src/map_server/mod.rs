@@ -1,0 +1,12 @@
+//! Occupancy grids as files: the YAML and image pairs of ROS `map_server`, and plain floor plans.
+
+mod description;
+mod error;
+mod read;
+#[cfg(test)]
+mod tests;
+mod write;
+
+pub use error::MapError;
+pub use read::{read_floor_plan, read_map};
+pub use write::{encode_png, write_map, write_png};

@@ -1,0 +1,101 @@
+//! The coarse search: where a scan lies best on the surfaces seen before, tried at every pose around
+//! the one that odometry predicts.
+
+use hssh_metrics::{Pose, UncertainPose};
+use nalgebra::{Vector2, Vector3, vector};
+
+use super::cloud::{Cloud, SurfacePoint};
+
+/// Side of a cell of the likelihood field, in metres.
+const CELL: f64 = 0.1;
+/// How far a hit may be from a surface and still speak for a pose, in metres, standard deviation.
+const BLUR: f64 = 0.15;
+/// How much a hit off all surfaces speaks against a pose: it may be something that was not seen before.
+const OUTLIER: f64 = 0.05;
+/// Steps of the search: metres and radians.
+const STEP: (f64, f64) = (0.1, 0.02);
+/// The most steps to each side.
+const MOST_STEPS: f64 = 12.0;
+
+/// How well hits fit, as a grid of log-likelihoods around the surfaces seen before.
+pub(super) struct LikelihoodField {
+    origin: Vector2<f64>,
+    width: usize,
+    height: usize,
+    cells: Vec<f32>,
+}
+
+impl LikelihoodField {
+    /// The field of a cloud within `reach` metres of `center`.
+    pub(super) fn new(cloud: &Cloud, center: Vector2<f64>, reach: f64) -> Self {
+        let side = (2.0 * reach / CELL).ceil() as usize;
+        let origin = center - vector![reach, reach];
+        let mut field = LikelihoodField {
+            origin,
+            width: side,
+            height: side,
+            cells: vec![OUTLIER.ln() as f32; side * side],
+        };
+        let radius = (3.0 * BLUR / CELL).ceil() as i64;
+        for point in cloud.points() {
+            let at = (point.position - origin) / CELL;
+            let (column, row) = (at.x.floor() as i64, at.y.floor() as i64);
+            for dy in -radius..=radius {
+                for dx in -radius..=radius {
+                    let Some(index) = field.index(column + dx, row + dy) else { continue };
+                    let corner = vector![(column + dx) as f64 + 0.5, (row + dy) as f64 + 0.5];
+                    let squared = (corner - at).norm_squared() * (CELL / BLUR).powi(2);
+                    let value = (OUTLIER + (1.0 - OUTLIER) * (-0.5 * squared).exp()).ln() as f32;
+                    field.cells[index] = field.cells[index].max(value);
+                }
+            }
+        }
+        field
+    }
+
+    fn index(&self, column: i64, row: i64) -> Option<usize> {
+        let is_inside = column >= 0 && row >= 0 && column < self.width as i64 && row < self.height as i64;
+        is_inside.then(|| row as usize * self.width + column as usize)
+    }
+
+    fn at(&self, position: Vector2<f64>) -> f64 {
+        let at = (position - self.origin) / CELL;
+        let cell = self.index(at.x.floor() as i64, at.y.floor() as i64);
+        cell.map_or(OUTLIER.ln(), |index| f64::from(self.cells[index]))
+    }
+}
+
+/// The pose around the predicted one, within `sigmas` of its standard deviations, from which the scan
+/// fits best, what odometry believes being part of the fit. Hits count `weight` each.
+pub(super) fn search(
+    field: &LikelihoodField,
+    surfaces: &[SurfacePoint],
+    predicted: &UncertainPose,
+    sigmas: f64,
+    weight: f64,
+) -> Pose {
+    let information = predicted.covariance.information();
+    let spread = predicted.covariance.matrix().diagonal().map(f64::sqrt) * sigmas;
+    let steps = |spread: f64, step: f64| (spread / step).ceil().min(MOST_STEPS) as i32;
+    let (across, around) = (steps(spread.x.max(spread.y), STEP.0), steps(spread.z, STEP.1));
+    let mut best = (f64::NEG_INFINITY, predicted.mean);
+    for turn in -around..=around {
+        let turned = Pose { theta: predicted.mean.theta + f64::from(turn) * STEP.1, ..predicted.mean };
+        let rotation = turned.rotation();
+        let hits: Vec<Vector2<f64>> =
+            surfaces.iter().map(|surface| turned.translation() + rotation * surface.position).collect();
+        for row in -across..=across {
+            for column in -across..=across {
+                let shift = vector![f64::from(column), f64::from(row)] * STEP.0;
+                let off = Vector3::new(shift.x, shift.y, f64::from(turn) * STEP.1);
+                let prior = -0.5 * off.dot(&(information.matrix() * off));
+                let fit: f64 = hits.iter().map(|hit| field.at(hit + shift)).sum();
+                let score = prior + weight * fit;
+                if score > best.0 {
+                    best = (score, Pose::new(turned.x + shift.x, turned.y + shift.y, turned.theta));
+                }
+            }
+        }
+    }
+    best.1
+}

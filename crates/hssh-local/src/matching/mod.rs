@@ -1,0 +1,13 @@
+//! Scan matching in the small: the robot's motion from scan to scan, where odometry says where to look
+//! and decides along corridors, which look the same everywhere (the control level of section 2.1.1).
+
+mod align;
+mod cloud;
+mod correlate;
+mod motion;
+mod options;
+mod track;
+
+pub use motion::MotionNoise;
+pub use options::MatchOptions;
+pub use track::{Track, TrackedScan, track};

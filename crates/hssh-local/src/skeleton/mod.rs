@@ -1,0 +1,19 @@
+//! The medial axis of free space as a graph: the points equally far from obstacles on several sides
+//! (section 2.2.2, third definition of gateways).
+
+mod anchor;
+mod free_space;
+mod graph;
+mod mask;
+mod parameters;
+mod prune;
+#[cfg(test)]
+mod tests;
+mod thinning;
+mod tip;
+mod trace;
+
+pub use free_space::FreeSpace;
+pub use graph::{AxisPoint, EdgeEnd, EdgeId, NodeId, Skeleton, SkeletonEdge, SkeletonNode, Tip};
+pub(crate) use graph::{distance, distances, length};
+pub use parameters::{SkeletonParameters, UnknownSpace};

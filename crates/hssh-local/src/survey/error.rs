@@ -1,0 +1,65 @@
+//! What can be wrong with a survey.
+
+use hssh_causal::ExplorationError;
+use hssh_metrics::UncertaintyError;
+
+use crate::grid::LatticeError;
+
+/// Something that a survey had to decide with little reason.
+#[derive(Clone, PartialEq, Debug, thiserror::Error)]
+pub enum SurveyWarning {
+    /// The robot's way meets no gateway of the star well.
+    #[error("visit {visit}: the robot {verb} {offset:.1} m off its nearest gateway; the star may lack one")]
+    OffGateways {
+        /// The visit, counted from 1.
+        visit: usize,
+        /// "came in" or "went out".
+        verb: &'static str,
+        /// How far from the axis of the gateway, in metres.
+        offset: f64,
+    },
+    /// A sighting that no other confirmed.
+    #[error("scan {scan}: something like a place was left out, for it was sighted only {times} times")]
+    Fleeting {
+        /// The scan, counted from 1.
+        scan: usize,
+        /// How often it was sighted.
+        times: usize,
+    },
+}
+
+/// Why there is no survey or no exploration.
+#[derive(Clone, PartialEq, Debug, thiserror::Error)]
+pub enum SurveyError {
+    /// The options describe no local map.
+    #[error("no local map can be made: {0}")]
+    LocalMap(#[from] LatticeError),
+    /// No place along the way.
+    #[error(
+        "no place was found along {metres:.0} m of way: nowhere are there other ways out than on and back; \
+         a way out has to lead {depth} m on"
+    )]
+    NoPlaces {
+        /// How far the robot travelled.
+        metres: f64,
+        /// How far a way out leads.
+        depth: f64,
+    },
+    /// A way so long that its covariance is useless.
+    #[error("the way from visit {visit} to the next cannot be measured: {problem}")]
+    Motion {
+        /// The visit, counted from 1.
+        visit: usize,
+        /// Why not.
+        problem: UncertaintyError,
+    },
+    /// Nobody knows by which ends the robot went from one visit to the next.
+    #[error("by which ways the robot went from visit {visit} to the next is not known")]
+    NoWay {
+        /// The visit, counted from 1.
+        visit: usize,
+    },
+    /// The visits are no exploration.
+    #[error("the visits make no exploration: {0}")]
+    Exploration(#[from] ExplorationError),
+}

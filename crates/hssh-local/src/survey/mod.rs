@@ -1,0 +1,18 @@
+//! From a laser log to an exploration: where the robot was at places, what their stars are, by which ways
+//! it came and went, and how far it was from one to the next (section 2.4).
+
+mod error;
+mod explore;
+mod follow;
+mod options;
+mod resemblance;
+mod stay;
+mod turn;
+mod visit;
+
+pub use error::{SurveyError, SurveyWarning};
+pub use follow::{SurveyStage, survey};
+pub use options::SurveyOptions;
+pub use resemblance::{Resemblance, resemblance};
+pub(crate) use turn::turn;
+pub use visit::{Survey, Visit};

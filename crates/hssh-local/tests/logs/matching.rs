@@ -1,0 +1,61 @@
+//! Scan matching: it undoes the errors of odometry where walls tell, and knows where they do not.
+
+use hssh_local::{LaserLog, MatchOptions, Track, track};
+use hssh_metrics::Pose;
+
+use crate::simulator::{Walls, around, drive, log};
+
+/// Tracks a robot whose odometry turns 2° too much every metre and runs 5% too long.
+fn tracked(walls: &Walls, poses: &[Pose]) -> Track {
+    let mut odometry = vec![Pose::IDENTITY];
+    for pair in poses.windows(2) {
+        let step = pair[0].between(pair[1]);
+        let length = step.translation().norm();
+        let wrong = Pose::new(1.05 * step.x, 1.05 * step.y, step.theta + 0.035 * length);
+        odometry.push(odometry[odometry.len() - 1].compose(wrong));
+    }
+    let text = log(walls, poses, &odometry);
+    track(&LaserLog::read(text.as_bytes()).unwrap(), &MatchOptions::default(), |_| ())
+}
+
+fn error(track: &Track, poses: &[Pose]) -> Pose {
+    let truth = poses[0].between(poses[poses.len() - 1]);
+    truth.between(track.scans[track.scans.len() - 1].pose)
+}
+
+#[test]
+fn in_a_building_with_corners_the_way_is_found() {
+    let walls =
+        around(&[[[-2.0, -2.0], [10.0, 2.0]], [[6.0, -2.0], [10.0, 12.0]], [[-2.0, -8.0], [1.0, 2.0]]]);
+    let poses = drive(&[[0.0, 0.0], [8.0, 0.0], [8.0, 9.0]], 0.5);
+    let error = error(&tracked(&walls, &poses), &poses);
+    // Odometry alone is off by about 34° and several metres.
+    assert!(error.translation().norm() < 0.15, "{error:?}");
+    assert!(error.theta.abs() < 0.02, "{error:?}");
+}
+
+/// In an endless corridor nothing tells how far the robot went: odometry decides, and the covariance
+/// says that nothing was learned. The walls give the rest.
+#[test]
+fn along_a_corridor_odometry_decides() {
+    let walls = around(&[[[-40.0, -1.0], [60.0, 1.0]]]);
+    let poses = drive(&[[0.0, 0.0], [12.0, 0.0]], 0.5);
+    let track = tracked(&walls, &poses);
+    let motion = track.motion(0, poses.len() - 1).unwrap().unwrap();
+    assert!((motion.mean.x - 1.05 * 12.0).abs() < 0.05, "{:?}", motion.mean);
+    // Odometry alone would have turned by 24°.
+    assert!(motion.mean.y.abs() < 0.25 && motion.mean.theta.abs() < 0.04, "{:?}", motion.mean);
+    let variances = motion.covariance.matrix().diagonal();
+    let odometry = MatchOptions::default().odometry;
+    let alone = odometry.distance.powi(2) * 12.6;
+    assert!(variances.x > alone, "{variances} must not be less than {alone}");
+    assert!(variances.z < 0.1 * odometry.heading.powi(2) * 12.6, "{variances}");
+}
+
+#[test]
+fn a_robot_that_sees_nothing_goes_by_odometry() {
+    let poses = drive(&[[0.0, 0.0], [3.0, 0.0]], 0.5);
+    let track = tracked(&Walls::new(), &poses);
+    let last = track.scans[track.scans.len() - 1];
+    assert!((last.travelled - 3.15).abs() < 1e-6, "{last:?}");
+}

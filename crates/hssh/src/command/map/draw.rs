@@ -1,0 +1,107 @@
+//! The pictures of the best maps and of the search tree, and the pose graph of the best map.
+
+use std::path::{Path, PathBuf};
+
+use hssh_causal::Exploration;
+use hssh_draw::{
+    Bearings, Layout, MapOptions as DrawOptions, SearchTree, TreeOptions, draw_map, draw_tree, map_to_dot,
+    tree_to_dot,
+};
+use hssh_metrics::{GraphFile, Marginals, PoseGraph};
+use hssh_search::{Cursor, Experience, NodeId, Tree, place_by_odometry};
+use nalgebra::Matrix2;
+
+use crate::arguments::MapOptions;
+use crate::failure::Failure;
+use crate::output::write_file;
+
+/// What there is to draw.
+#[derive(Clone, Copy)]
+pub(super) struct Pictures<'a> {
+    pub(super) exploration: &'a Exploration,
+    pub(super) tree: &'a Tree,
+    pub(super) experience: &'a Experience,
+    /// The maps that are equally good.
+    pub(super) best: &'a [NodeId],
+    /// What they are, in the singular.
+    pub(super) kind: &'static str,
+}
+
+/// Whether any picture or file is asked for.
+pub(super) fn is_asked(options: &MapOptions) -> bool {
+    [&options.svg, &options.dot, &options.tree, &options.g2o].iter().any(|file| file.is_some())
+}
+
+/// Draws the tree, and the best maps.
+pub(super) fn draw(options: &MapOptions, pictures: &Pictures<'_>) -> Result<(), Failure> {
+    let Pictures { exploration, tree, experience, best, kind } = *pictures;
+    let bearings = Bearings(exploration.star_types().iter().map(|named| named.bearings.clone()).collect());
+    if let Some(file) = &options.tree {
+        let drawn = TreeOptions { bearings: bearings.clone(), ..TreeOptions::default() };
+        let tree = SearchTree::of(tree, experience, best, drawn.most_maps);
+        let is_dot = file.extension().is_some_and(|ending| ending == "dot");
+        let text = if is_dot { tree_to_dot(&tree, &drawn)? } else { draw_tree(&tree, &drawn)? };
+        write_file(file, &text)?;
+    }
+    let mut cursor = Cursor::new(experience);
+    for (index, &node) in best.iter().enumerate() {
+        let files = [&options.svg, &options.dot, &options.g2o].map(|file| numbered(file.as_deref(), index));
+        if files.iter().all(Option::is_none) {
+            break;
+        }
+        let [svg, dot, g2o] = files;
+        let placement = place_by_odometry(exploration, &cursor.visits(node, tree, experience))?;
+        let hypothesis = cursor.go_to(node, tree, experience);
+        let map = &hypothesis.map;
+        let layout = match &placement {
+            Some(placement) => {
+                let layout = Layout::measured(map, placement.graph.poses().to_vec(), &bearings)?;
+                layout.with_covariances(covariances(&placement.graph)?)
+            }
+            None => Layout::schematic(map, &bearings)?,
+        };
+        let drawn = DrawOptions {
+            title: Some(title(&options.file, index, best.len(), kind)),
+            current: Some(hypothesis.position.place),
+            star_names: exploration.star_types().iter().map(|named| named.name.clone()).collect(),
+            ..DrawOptions::default()
+        };
+        if let Some(file) = svg {
+            write_file(&file, &draw_map(map, &layout, &drawn))?;
+        }
+        if let Some(file) = dot {
+            write_file(&file, &map_to_dot(map, &experience.catalog, &drawn))?;
+        }
+        if let Some(file) = g2o {
+            let graph = placement.ok_or(Failure::NoOdometry)?.graph;
+            write_file(&file, &GraphFile::from(graph).to_g2o())?;
+        }
+    }
+    Ok(())
+}
+
+/// Of the position of each place, in the frame of the first one.
+fn covariances(graph: &PoseGraph) -> Result<Vec<Matrix2<f64>>, Failure> {
+    let marginals = Marginals::new(graph)?;
+    Ok(graph.pose_ids().map(|pose| marginals.covariance(pose).fixed_view::<2, 2>(0, 0).into()).collect())
+}
+
+fn title(file: &Path, index: usize, best: usize, kind: &str) -> String {
+    let name = file.file_stem().map_or_else(|| "exploration".into(), |stem| stem.to_string_lossy());
+    match best {
+        1 => format!("{name}: the {kind}"),
+        _ => format!("{name}: {kind} {} of {best}", index + 1),
+    }
+}
+
+/// The file for the picture of the map with that index: `map.svg`, `map-2.svg`, …
+fn numbered(file: Option<&Path>, index: usize) -> Option<PathBuf> {
+    let file = file?;
+    if index == 0 {
+        return Some(file.to_owned());
+    }
+    let stem = file.file_stem().unwrap_or_default().to_string_lossy();
+    let name = format!("{stem}-{}", index + 1);
+    let ending = file.extension().map_or(String::new(), |ending| format!(".{}", ending.to_string_lossy()));
+    Some(file.with_file_name(name + &ending))
+}

@@ -1,0 +1,210 @@
+//! `hssh stars`: the places of a grid map with their gateways and stars, and what connects them.
+
+use std::path::Path;
+
+use hssh_draw::{GridPicture, draw_grid};
+use hssh_local::{
+    LocalStar, Neighborhood, OccupancyGrid, PlaceGraph, PlaceKind, PlaceParameters, neighborhood,
+    read_floor_plan, read_map,
+};
+use serde::Serialize;
+
+use crate::arguments::StarsOptions;
+use crate::failure::{Failure, Status};
+use crate::output::{counted, print, print_json, write_file};
+
+/// The side of the part of the map that is looked at around one point, in metres.
+const WINDOW: f64 = 15.0;
+
+/// What is printed as JSON; metres and radians in the frame of the map.
+#[derive(Serialize)]
+struct Report {
+    places: Vec<PlaceReport>,
+    connections: Vec<[EndReport; 2]>,
+}
+
+#[derive(Serialize)]
+struct PlaceReport {
+    kind: String,
+    center: [f64; 2],
+    clearance: f64,
+    star: String,
+    ends: Vec<StarEndReport>,
+}
+
+#[derive(Serialize)]
+struct StarEndReport {
+    name: String,
+    bearing: f64,
+    gateway: Option<GatewayReport>,
+}
+
+#[derive(Serialize)]
+struct GatewayReport {
+    position: [f64; 2],
+    width: f64,
+    line: [[f64; 2]; 2],
+}
+
+#[derive(Serialize)]
+struct EndReport {
+    place: u32,
+    end: String,
+}
+
+pub(crate) fn run(options: &StarsOptions) -> Result<Status, Failure> {
+    let parameters = options.parameters();
+    let grid = read(&options.map, options.resolution)?;
+    match options.at {
+        Some(point) => around(&grid, point, &parameters, options),
+        None => everywhere(&grid, &parameters, options),
+    }
+}
+
+fn read(file: &Path, resolution: Option<f64>) -> Result<OccupancyGrid, Failure> {
+    let is_yaml = file.extension().is_some_and(|ending| ending == "yaml" || ending == "yml");
+    match resolution {
+        None if !is_yaml => Err(Failure::Usage(format!(
+            "{} has no YAML file to say how large its pixels are: add --resolution with the metres per pixel, such as 0.05",
+            file.display()
+        ))),
+        Some(_) if is_yaml => Err(Failure::Usage(format!(
+            "{} says itself how large its pixels are: leave out --resolution, or give the image instead",
+            file.display()
+        ))),
+        Some(resolution) => Ok(read_floor_plan(file, resolution)?),
+        None => Ok(read_map(file)?),
+    }
+}
+
+/// All places of the map.
+fn everywhere(
+    grid: &OccupancyGrid,
+    parameters: &PlaceParameters,
+    options: &StarsOptions,
+) -> Result<Status, Failure> {
+    let graph = PlaceGraph::new(grid, parameters).map_err(|error| failure(&options.map, error))?;
+    if let Some(file) = &options.svg {
+        let places = graph.places.iter().map(|place| (place.center, &place.star)).collect();
+        let picture = GridPicture { skeleton: Some(&graph.skeleton), places, ..GridPicture::default() };
+        write_file(file, &draw_grid(grid, &picture))?;
+    }
+    let report = Report::of(&graph);
+    if options.json {
+        print_json(&report)?;
+    } else {
+        print(&report.text(&options.map, grid))?;
+    }
+    Ok(if report.places.is_empty() { Status::NothingConsistent } else { Status::Found })
+}
+
+/// The place around one point.
+fn around(
+    grid: &OccupancyGrid,
+    point: [f64; 2],
+    parameters: &PlaceParameters,
+    options: &StarsOptions,
+) -> Result<Status, Failure> {
+    let outside = || Failure::Usage(format!("the point ({}, {}) is not on the map", point[0], point[1]));
+    let window = grid.window(point, WINDOW).ok_or_else(outside)?;
+    let found = neighborhood(&window, point, parameters).map_err(|error| failure(&options.map, error))?;
+    if let Some(file) = &options.svg {
+        let picture = GridPicture {
+            skeleton: Some(&found.graph.skeleton),
+            places: vec![(found.center, &found.star)],
+            robot: Some(point),
+            ..GridPicture::default()
+        };
+        write_file(file, &draw_grid(&window, &picture))?;
+    }
+    let Neighborhood { kind, center, clearance, star, .. } = &found;
+    let place = PlaceReport::new(*kind, *center, *clearance, star);
+    if options.json {
+        print_json(&place)?;
+    } else {
+        print(&place.text(0))?;
+    }
+    Ok(Status::Found)
+}
+
+fn failure(map: &Path, error: impl std::fmt::Display) -> Failure {
+    Failure::Usage(format!("{}: {error}", map.display()))
+}
+
+impl Report {
+    fn of(graph: &PlaceGraph) -> Self {
+        let places = graph.places.iter();
+        let end = |&(place, olp): &(hssh_local::PlaceNumber, hssh_topology::Olp)| EndReport {
+            place: place.0,
+            end: graph.place(place).star.star.name(olp).to_string(),
+        };
+        Report {
+            places: places
+                .map(|place| PlaceReport::new(place.kind, place.center, place.clearance, &place.star))
+                .collect(),
+            connections: graph.connections.iter().map(|found| found.ends.each_ref().map(end)).collect(),
+        }
+    }
+
+    fn text(&self, map: &Path, grid: &OccupancyGrid) -> String {
+        let mut text = format!(
+            "{}: {} × {} cells of {} m; {}, {}\n",
+            map.display(),
+            grid.lattice().width(),
+            grid.lattice().height(),
+            grid.lattice().resolution(),
+            counted(self.places.len(), "place"),
+            counted(self.connections.len(), "connection"),
+        );
+        for (number, place) in self.places.iter().enumerate() {
+            text += &place.text(number);
+        }
+        for [from, to] in &self.connections {
+            text += &format!("{} {} leads to {} {}\n", from.place, from.end, to.place, to.end);
+        }
+        text
+    }
+}
+
+impl PlaceReport {
+    fn new(kind: PlaceKind, center: [f64; 2], clearance: f64, star: &LocalStar) -> Self {
+        let ends = star.star.olps().map(|olp| StarEndReport {
+            name: star.star.name(olp).to_string(),
+            bearing: star.bearings[olp.index()],
+            gateway: star.gateways[olp.index()].map(|gateway| GatewayReport {
+                position: gateway.position,
+                width: gateway.width,
+                line: gateway.line,
+            }),
+        });
+        let kind = match kind {
+            PlaceKind::Passage => "passage",
+            PlaceKind::DeadEnd => "dead end",
+            PlaceKind::Corner => "corner",
+            PlaceKind::Junction => "junction",
+        };
+        PlaceReport {
+            kind: kind.to_owned(),
+            center,
+            clearance,
+            star: star.star.to_string(),
+            ends: ends.collect(),
+        }
+    }
+
+    fn text(&self, number: usize) -> String {
+        let [x, y] = self.center;
+        let mut text = format!("{number}: {} at ({x:.1}, {y:.1}), {}\n", self.kind, self.star);
+        for end in &self.ends {
+            let Some(gateway) = &end.gateway else { continue };
+            let [x, y] = gateway.position;
+            text += &format!(
+                "    {} at {:.0}° through ({x:.1}, {y:.1}), {:.1} m wide\n",
+                end.name,
+                end.bearing.to_degrees(),
+                gateway.width
+            );
+        }
+        text
+    }
+}

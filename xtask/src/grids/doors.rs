@@ -1,0 +1,88 @@
+//! Constrictions of the medial axis against the doors of a real floor.
+
+use std::error::Error;
+use std::path::Path;
+
+use hssh_local::{Gateway, PlaceGraph, PlaceParameters, read_map};
+use serde::Deserialize;
+
+use crate::table::aligned;
+
+/// A gateway is at a door if it is this near to the middle of the door, in metres.
+const NEAR: f64 = 0.5;
+
+/// Widest gateways that are taken for doors, in metres.
+const WIDTHS: [f64; 7] = [0.9, 1.1, 1.3, 1.5, 1.8, 2.2, 3.0];
+
+#[derive(Deserialize)]
+struct Door {
+    name: String,
+    door_corner_pt_1: [f64; 2],
+    door_corner_pt_2: [f64; 2],
+}
+
+impl Door {
+    fn middle(&self) -> [f64; 2] {
+        let [a, b] = [self.door_corner_pt_1, self.door_corner_pt_2];
+        [(a[0] + b[0]) / 2.0, (a[1] + b[1]) / 2.0]
+    }
+}
+
+pub(super) fn report(folder: &Path) -> Result<String, Box<dyn Error>> {
+    let doors: Vec<Door> = serde_saphyr::from_str(&std::fs::read_to_string(folder.join("doors.yaml"))?)?;
+    let grid = read_map(&folder.join("3.yaml"))?;
+    let graph = PlaceGraph::new(&grid, &PlaceParameters::default())?;
+    let mut gateways = graph.constrictions.clone();
+    let constrictions = gateways.len();
+    gateways.extend(graph.places.iter().flat_map(|place| place.star.gateways()).copied());
+    let mut rows = vec![
+        [
+            "widest",
+            "constrictions",
+            "at a door",
+            "precision",
+            "doors found",
+            "recall",
+            "gateways too: found",
+            "recall",
+        ]
+        .map(str::to_owned)
+        .to_vec(),
+    ];
+    for widest in WIDTHS {
+        let score = |gateways: &[Gateway]| score(&doors, gateways, widest);
+        let (taken, at_door, found) = score(&gateways[..constrictions]);
+        let (_, _, found_by_any) = score(&gateways);
+        let percent = |part: usize, all: usize| format!("{:.0}%", 100.0 * part as f64 / all.max(1) as f64);
+        rows.push(vec![
+            format!("{widest:.1} m"),
+            taken.to_string(),
+            at_door.to_string(),
+            percent(at_door, taken),
+            format!("{found} of {}", doors.len()),
+            percent(found, doors.len()),
+            found_by_any.to_string(),
+            percent(found_by_any, doors.len()),
+        ]);
+    }
+    let missed = doors.iter().filter(|door| gateways.iter().all(|gateway| !is_at(door, gateway)));
+    let missed: Vec<&str> = missed.map(|door| door.name.as_str()).collect();
+    Ok(format!(
+        "gdc3: constrictions of the medial axis within {NEAR} m of a door, by the widest that is taken\n{}no gateway at: {}\n",
+        aligned(&rows),
+        missed.join(" ")
+    ))
+}
+
+fn is_at(door: &Door, gateway: &Gateway) -> bool {
+    let [dx, dy] = [door.middle()[0] - gateway.position[0], door.middle()[1] - gateway.position[1]];
+    dx.hypot(dy) <= NEAR
+}
+
+/// How many gateways are narrow enough, how many of these are at a door, and how many doors have one.
+fn score(doors: &[Door], gateways: &[Gateway], widest: f64) -> (usize, usize, usize) {
+    let taken: Vec<&Gateway> = gateways.iter().filter(|gateway| gateway.width <= widest).collect();
+    let at_door = taken.iter().filter(|gateway| doors.iter().any(|door| is_at(door, gateway))).count();
+    let found = doors.iter().filter(|door| taken.iter().any(|gateway| is_at(door, gateway))).count();
+    (taken.len(), at_door, found)
+}

@@ -1,0 +1,24 @@
+//! `cargo xtask grids`: gateways, places and stars of real grid maps beside what is known of the buildings.
+
+mod aces;
+mod crossing;
+mod doors;
+mod rooms;
+mod speed;
+mod stability;
+
+use std::error::Error;
+
+use crate::flags::Grids;
+
+/// Prints all measurements, one paragraph each.
+pub(crate) fn run(flags: &Grids) -> Result<(), Box<dyn Error>> {
+    let maps = flags.data.join("gridmap");
+    println!("{}", crossing::report(&maps.join("evg-thin"))?);
+    println!("{}", doors::report(&maps.join("gdc3"))?);
+    println!("{}", rooms::report(&maps.join("gdc3"))?);
+    println!("{}", aces::report(&flags.data)?);
+    println!("{}", stability::report(&flags.data)?);
+    println!("{}", speed::report(&maps.join("gdc3"))?);
+    Ok(())
+}
