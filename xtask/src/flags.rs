@@ -33,6 +33,11 @@ xflags::xflags! {
             /// Print JSON instead of a table.
             optional --json
         }
+        /// Counts the hypotheses of the basic SSH, which knows no stars, beside those of the hybrid one.
+        cmd causal {
+            /// Print JSON instead of tables.
+            optional --json
+        }
         /// Times the mapper: `speed`, `faces` or `proof`, all three if not given; or pose graphs: `graphs`, `closures`.
         cmd bench {
             /// Which one.

@@ -4,6 +4,7 @@
 mod aces;
 mod bench;
 mod branching;
+mod causal;
 mod ci;
 mod experiment;
 #[allow(unreachable_pub)] // generated
@@ -37,6 +38,7 @@ fn run(command: XtaskCmd) -> Result<(), Box<dyn Error>> {
     match command {
         XtaskCmd::Experiment(flags) => experiment::run(&flags),
         XtaskCmd::Branching(flags) => branching::run(&flags),
+        XtaskCmd::Causal(flags) => causal::run(&flags),
         XtaskCmd::Bench(flags) => bench::run(&flags),
         XtaskCmd::Peers(flags) => peers::run(&flags),
         XtaskCmd::Measure(flags) => bench::speed::measure(&flags),

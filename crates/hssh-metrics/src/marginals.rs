@@ -33,6 +33,9 @@ pub struct NewConstraint {
     pub log_determinant_rise: f64,
     /// ln N(τ°; predicted, C + H Σ Hᵀ): how probable the measurement is, given all others.
     pub log_density: f64,
+    /// The variance of the difference between the measured turn and the predicted one: rad². The estimates hold
+    /// as long as it is small.
+    pub heading_variance: f64,
 }
 
 impl Marginals {
@@ -115,6 +118,9 @@ impl Marginals {
     /// What measuring τ° with covariance C° (of its three numbers, along the axes of `from`) would change:
     /// the price of closing a loop, without solving again.
     ///
+    /// # Errors
+    /// If the graph is so much vaguer than the measurement that double precision cannot compare the two.
+    ///
     /// # Panics
     /// If the graph has no such pose.
     #[must_use]
@@ -124,23 +130,24 @@ impl Marginals {
         to: PoseId,
         relative_pose: Pose,
         covariance: &Covariance,
-    ) -> NewConstraint {
+    ) -> Result<NewConstraint, SolveError> {
         let (predicted, spread) = self.relative(from, to);
         let residual: Vector3<f64> = vector![
             relative_pose.x - predicted.x,
             relative_pose.y - predicted.y,
             wrap_angle(relative_pose.theta - predicted.theta)
         ];
-        let total = (covariance.matrix() + spread)
-            .cholesky()
-            .expect("a positive definite matrix stays one when a positive semidefinite one is added");
+        let spread = covariance.matrix() + spread;
+        // Positive definite by itself, but not in double precision if the graph is much vaguer than the measurement.
+        let total = spread.cholesky().ok_or(SolveError::Singular)?;
         let log_determinant = 2.0 * total.l_dirty().diagonal().map(f64::ln).sum();
         let chi2_rise = quadratic_form(&total.inverse(), &residual);
-        NewConstraint {
+        Ok(NewConstraint {
             chi2_rise,
             log_determinant_rise: log_determinant - covariance.log_determinant(),
             log_density: -0.5 * (chi2_rise + log_determinant + 3.0 * std::f64::consts::TAU.ln()),
-        }
+            heading_variance: spread[(2, 2)],
+        })
     }
 
     /// The 3×3 blocks of A⁻¹ in the columns of one pose and the rows of others.

@@ -4,8 +4,8 @@
 //! comes back may see the star turned by φ; then the frame of that visit is turned too, by the difference of
 //! the bearings of ends that φ takes to one another.
 
-use hssh_causal::{Exploration, StarType};
-use hssh_metrics::{Pose, PoseId, wrap_angle};
+use hssh_causal::{Exploration, NamedStar, StarType};
+use hssh_metrics::{Pose, PoseId};
 use hssh_topology::{Olp, Position};
 
 /// The angles between the frames of visits and of places, for every pair of star types and every φ.
@@ -72,21 +72,26 @@ impl Trail {
     }
 }
 
-/// The mean difference of the bearings of corresponding ends. Ends without bearings count as spread evenly
-/// around the place.
+/// The mean difference of the bearings of corresponding ends.
 fn turn(exploration: &Exploration, seen: StarType, first: StarType, rotation: u32) -> f64 {
     let (seen, first) = (&exploration.star_types()[seen.index()], &exploration.star_types()[first.index()]);
     let degree = seen.star.degree();
     let image = |olp: Olp| Olp((olp.0 + rotation) % degree);
-    let spread = |olp: Olp| -std::f64::consts::TAU * f64::from(olp.0) / f64::from(degree);
-    let measured: Vec<f64> = seen
-        .star
-        .olps()
-        .filter_map(|olp| Some(first.bearings[image(olp).index()]? - seen.bearings[olp.index()]?))
-        .collect();
-    if measured.is_empty() {
-        return wrap_angle(spread(image(Olp(0))) - spread(Olp(0)));
-    }
-    let (sine, cosine) = measured.iter().fold((0.0, 0.0), |(s, c), turn| (s + turn.sin(), c + turn.cos()));
+    let (of_seen, of_first) = (bearings(seen), bearings(first));
+    circular_mean(seen.star.olps().map(|olp| of_first[image(olp).index()] - of_seen[olp.index()]))
+}
+
+/// The bearings of all ends of a star. Ends without bearings count as spread evenly around the place, clockwise, turned so
+/// that they agree best with those measured.
+fn bearings(named: &NamedStar) -> Vec<f64> {
+    let degree = f64::from(named.star.degree());
+    let spread = |olp: Olp| -std::f64::consts::TAU * f64::from(olp.0) / degree;
+    let measured = || named.star.olps().filter_map(|olp| Some(named.bearings[olp.index()]? - spread(olp)));
+    let offset = if measured().next().is_some() { circular_mean(measured()) } else { 0.0 };
+    named.star.olps().map(|olp| named.bearings[olp.index()].unwrap_or(spread(olp) + offset)).collect()
+}
+
+fn circular_mean(angles: impl Iterator<Item = f64>) -> f64 {
+    let (sine, cosine) = angles.fold((0.0, 0.0), |(s, c), angle| (s + angle.sin(), c + angle.cos()));
     sine.atan2(cosine)
 }

@@ -34,8 +34,8 @@ pub use mapper::{Goal, Mapper, MapperBuilder, ObservationError, RankedMap, Strat
 pub use measured::MeasurementError;
 pub use placement::{Placement, PlacementError, place_by_odometry};
 pub use posterior::{
-    Corridor, Cost, LINEAR_TRUST, MapPrior, Metrical, ModelError, PlacePrior, Posterior, PosteriorError,
-    PosteriorModel, PosteriorOrder, PosteriorReport, PosteriorSearch, ProbableMap, Proving,
+    Appearance, Corridor, Cost, LINEAR_TRUST, MapPrior, Metrical, ModelError, PlacePrior, Posterior,
+    PosteriorError, PosteriorModel, PosteriorOrder, PosteriorReport, PosteriorSearch, ProbableMap, Proving,
 };
 pub use proof::Certificate;
 pub use report::{FinalCounts, LevelCounts, Levels, Report};

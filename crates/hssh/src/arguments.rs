@@ -42,7 +42,8 @@ pub(crate) enum Command {
 
 #[derive(Debug, Args)]
 pub(crate) struct MapOptions {
-    /// The exploration, a RON file (see docs/exploration-format.md); `-` reads standard input.
+    /// The exploration, a RON file (see docs/exploration-format.md), or a laser log in CARMEN form; `-` reads an
+    /// exploration from standard input.
     pub(crate) file: PathBuf,
     #[command(flatten)]
     pub(crate) search: SearchOptions,
@@ -71,6 +72,14 @@ pub(crate) struct MapOptions {
     /// Write the pose graph of the best map, laid out, as g2o.
     #[arg(long, value_name = "FILE")]
     pub(crate) g2o: Option<PathBuf>,
+    /// With a laser log: write the grid map of the whole building, as PNG, or, if the file ends in .yaml, for
+    /// ROS map_server.
+    #[arg(long, value_name = "FILE")]
+    pub(crate) grid: Option<PathBuf>,
+    /// With a laser log: let the likeness of local maps count with this weight. Neighboring cells of a local map are
+    /// not independent, so that 1 is too much.
+    #[arg(long, value_name = "WEIGHT", default_value_t = 0.0)]
+    pub(crate) likeness: f64,
 }
 
 #[derive(Debug, Args)]
@@ -87,7 +96,8 @@ pub(crate) struct ExploreOptions {
 
 #[derive(Debug, Args)]
 pub(crate) struct StarsOptions {
-    /// The map: the YAML file of ROS `map_server`, or a floor plan as a PGM or PNG image.
+    /// The map: the YAML file of ROS `map_server`, or a floor plan as a PGM or PNG image; or a laser log in CARMEN
+    /// form, of which the places visited are shown.
     pub(crate) map: PathBuf,
     /// Metres per pixel of a floor plan without a YAML file.
     #[arg(long, value_name = "METRES")]
@@ -144,6 +154,12 @@ fn length(text: &str) -> Result<f64, String> {
 pub(crate) struct CheckOptions {
     /// The exploration, a RON file; `-` reads standard input.
     pub(crate) file: PathBuf,
+    /// Print also its causal schemas ⟨view, action, view⟩, and whether equal views can be one state.
+    #[arg(long)]
+    pub(crate) schemas: bool,
+    /// Write the graph of views as Graphviz DOT.
+    #[arg(long, value_name = "FILE")]
+    pub(crate) dot: Option<PathBuf>,
     /// Print one JSON object.
     #[arg(long)]
     pub(crate) json: bool,
@@ -298,15 +314,15 @@ pub(crate) struct PosteriorOptions {
     #[arg(long, value_enum, value_name = "WHAT", help_heading = "Posterior")]
     pub(crate) prior: Option<PriorOption>,
     /// The weights of F: c1,c2,c3.
-    #[arg(long, value_name = "C1,C2,C3", value_delimiter = ',', num_args = 3, default_values_t = [0.0, 2.0, 1.0], help_heading = "Posterior")]
+    #[arg(long, value_name = "C1,C2,C3", value_delimiter = ',', default_values_t = [0.0, 2.0, 1.0], help_heading = "Posterior")]
     pub(crate) weights: Vec<f64>,
     /// New places may be anywhere in that many square metres; without it, where corridors as long as those
     /// travelled lead.
     #[arg(long, value_name = "M2", value_parser = positive, help_heading = "Posterior")]
     pub(crate) area: Option<f64>,
     /// Prove the N best maps.
-    #[arg(long, value_name = "N", default_value_t = 1, help_heading = "Posterior")]
-    pub(crate) best: usize,
+    #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u64).range(1..), help_heading = "Posterior")]
+    pub(crate) best: u64,
     /// Go on until all maps not found have at most that probability together; 1 to stop at the proof.
     #[arg(long, value_name = "P", default_value_t = 0.01, value_parser = positive, help_heading = "Posterior")]
     pub(crate) rest: f64,
@@ -334,7 +350,7 @@ pub(crate) enum Task {
 
 #[derive(Debug, Args)]
 pub(crate) struct SearchOptions {
-    /// How to search: posterior if every travel has odometry, else breadth-first.
+    /// How to search: posterior if every travel has odometry and no --genus is given, else breadth-first.
     #[arg(long, value_enum, value_name = "HOW", help_heading = "Search")]
     pub(crate) search: Option<SearchKind>,
     /// Accept closed maps only, and go back until there is one; not with breadth-first and count.
@@ -452,7 +468,7 @@ impl SearchOptions {
                 ))
             }
             SearchKind::Posterior => {
-                let proving = Proving { best: self.posterior.best, rest: self.posterior.rest };
+                let proving = Proving { best: self.posterior.best as usize, rest: self.posterior.rest };
                 Ok(Task::Weigh(PosteriorOrder::Proof(proving)))
             }
             SearchKind::PosteriorBestFirst => Ok(Task::Weigh(PosteriorOrder::BestFirst)),
@@ -494,12 +510,12 @@ impl SearchOptions {
         monitor: &Arc<Monitor>,
     ) -> Result<PosteriorSearch, Failure> {
         Ok(PosteriorSearch {
-            model: self.model(exploration)?,
             axioms: self.axioms(),
             order,
             goal: self.goal(),
             limits: self.limits(),
             monitor: Arc::clone(monitor),
+            ..PosteriorSearch::new(self.model(exploration)?)
         })
     }
 

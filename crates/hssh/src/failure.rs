@@ -67,9 +67,9 @@ pub(crate) enum Failure {
     #[error(transparent)]
     Grid(#[from] hssh_local::MapError),
     #[error("cannot use {}: {error}\nhelp: give the path of a CARMEN log with FLASER messages, plain or gzip, or - for standard input", file.display())]
-    ReadLog { file: PathBuf, error: hssh_local::LogError },
+    ReadLog { file: PathBuf, error: Box<hssh_local::LogError> },
     #[error("{}: {error}", file.display())]
-    Survey { file: PathBuf, error: hssh_local::SurveyError },
+    Survey { file: PathBuf, error: Box<hssh_local::SurveyError> },
     #[error("{0}")]
     Usage(String),
     #[error("cannot print: {0}")]

@@ -23,8 +23,13 @@ pub(crate) fn print_json(value: &impl Serialize) -> Result<(), Failure> {
 /// Writes a picture and says so on standard error.
 pub(crate) fn write_file(file: &Path, text: &str) -> Result<(), Failure> {
     std::fs::write(file, text).map_err(|error| Failure::Write { file: file.to_owned(), error })?;
-    let _ = writeln!(std::io::stderr(), "wrote {}", file.display());
+    say_written(file);
     Ok(())
+}
+
+/// Says on standard error that a file was written.
+pub(crate) fn say_written(file: &Path) {
+    let _ = writeln!(std::io::stderr(), "wrote {}", file.display());
 }
 
 /// "1 map", "2 maps".

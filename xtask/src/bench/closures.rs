@@ -55,7 +55,10 @@ fn row(poses: u32, runs: usize) -> Result<Vec<String>, Box<dyn Error>> {
     let again =
         time(runs, || closed.iter().map(|closed| solve(closed, &once).map_or(0.0, |s| s.chi2)).sum::<f64>());
     let scored = |marginals: &Marginals| {
-        let score = |to| marginals.new_constraint(last, PoseId(to), measured, &covariance).chi2_rise;
+        let score = |to| {
+            let scored = marginals.new_constraint(last, PoseId(to), measured, &covariance);
+            scored.map_or(f64::NAN, |scored| scored.chi2_rise)
+        };
         others.clone().map(score).sum::<f64>()
     };
     let updated = time(runs, || scored(&marginals));

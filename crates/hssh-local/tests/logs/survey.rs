@@ -2,8 +2,9 @@
 
 use std::path::Path;
 
-use hssh_local::{LaserLog, Survey, SurveyError, SurveyOptions, global_poses, survey};
+use hssh_local::{LaserLog, Survey, SurveyError, SurveyOptions, global_poses, resemblance, survey};
 use hssh_metrics::Pose;
+use hssh_topology::Isomorphism;
 
 use crate::simulator::{around, drive, log};
 
@@ -62,6 +63,21 @@ fn the_track_itself_is_a_global_frame() {
         let off = tracked.pose.between(*pose);
         assert!(off.translation().norm() < 1e-9 && off.theta.abs() < 1e-9);
     }
+}
+
+/// Every place looks like itself, and like itself when the robot comes back another way.
+#[test]
+fn local_maps_resemble_themselves() {
+    let survey = ladder();
+    for visit in &survey.visits {
+        let star = &visit.star.star;
+        let itself = resemblance(visit, visit, Isomorphism::identity(star)).unwrap();
+        assert!(itself.log_likelihood_ratio > 5.0 && itself.agreement > 0.99, "{itself:?}");
+        assert!(itself.placed.translation().norm() < 0.2 && itself.placed.theta.abs() < 0.03, "{itself:?}");
+    }
+    let [first, .., again] = &survey.visits[..] else { panic!("there are visits") };
+    let phi = Isomorphism::all(&again.star.star, &first.star.star).next().unwrap();
+    assert!(resemblance(first, again, phi).unwrap().log_likelihood_ratio > 5.0);
 }
 
 #[test]

@@ -79,7 +79,7 @@ fn the_price_of_a_closure_is_what_solving_again_shows() {
     let covariance = generic_covariance(&mut ChaCha8Rng::seed_from_u64(1));
     let (from, to) = (PoseId(3), PoseId(25));
     let measured = graph.pose(from).between(graph.pose(to)).compose(Pose::new(0.01, -0.02, 0.01));
-    let price = Marginals::new(&graph).unwrap().new_constraint(from, to, measured, &covariance);
+    let price = Marginals::new(&graph).unwrap().new_constraint(from, to, measured, &covariance).unwrap();
     graph.add_edge(Edge::observed(from, to, measured, &covariance)).unwrap();
     let after = solve(&graph, &Options::default()).unwrap();
     let rise = after.chi2 - before.chi2;
@@ -104,7 +104,7 @@ fn the_price_of_a_closure_is_that_of_the_whole_linear_system() {
             let measured = graph.pose(from).between(graph.pose(to)).compose(Pose::new(0.4, -0.3, 0.2));
             let expected = dense_price(&graph, &Edge::observed(from, to, measured, &covariance));
             for marginals in [&plain, &tabulated] {
-                let price = marginals.new_constraint(from, to, measured, &covariance);
+                let price = marginals.new_constraint(from, to, measured, &covariance).unwrap();
                 for (found, expected) in
                     [(price.chi2_rise, expected.0), (price.log_determinant_rise, expected.1)]
                 {
@@ -163,7 +163,7 @@ fn the_evidence_is_a_product_over_travels() {
     let measured =
         graph.pose(PoseId(14)).between(graph.pose(PoseId(0))).compose(Pose::new(0.004, 0.002, -0.001));
     let marginals = Marginals::new(&graph).unwrap();
-    let density = marginals.new_constraint(PoseId(14), PoseId(0), measured, &covariance).log_density;
+    let density = marginals.new_constraint(PoseId(14), PoseId(0), measured, &covariance).unwrap().log_density;
     graph.add_edge(Edge::observed(PoseId(14), PoseId(0), measured, &covariance)).unwrap();
     let solution = solve(&graph, &Options::default()).unwrap();
     let evidence = laplace_log_evidence(&graph, &solution, prior);

@@ -64,7 +64,7 @@ pub struct PosteriorReport {
     /// Layouts found by least squares.
     pub solved: u64,
     /// The least factor by which χ² rose of what the linear estimate promised when a layout was solved. The bound
-    /// relies on [`LINEAR_TRUST`]: a lower factor invalidates the proof.
+    /// relies on [`LINEAR_TRUST`] where headings are known well enough: a lower factor there invalidates the proof.
     pub linear_factor: f64,
     /// Maps found that explain everything.
     pub found: u64,
@@ -78,8 +78,11 @@ pub struct PosteriorReport {
     pub open_bound: Option<f64>,
     /// The probability of all maps that were not found, at most.
     pub rest: f64,
-    /// Whether no map that was not found is better than the best one.
+    /// Whether no map that was not found is as probable as the best one.
     pub proved: bool,
+    /// Whether some hypothesis was left out because its layout cannot be computed: some odometry is out of all
+    /// proportion. Nothing is proved then.
+    pub unsolvable: bool,
     /// By number of travels explained, the root first.
     pub levels: Vec<LevelCounts>,
     /// Time spent searching.
@@ -102,7 +105,8 @@ impl Running<'_> {
         let best = self.found.first().map(|found| found.cost.total());
         let open_bound = self.frontier.least_bound();
         let is_tied = |found: &&Found| best.is_some_and(|best| is_tie(best, found.cost.total()));
-        let beats_rest = |best: f64| open_bound.is_none_or(|bound| best <= bound + TIE * (1.0 + best.abs()));
+        let beats_rest = |best: f64| open_bound.is_none_or(|bound| bound > best && !is_tie(best, bound));
+        let is_sound = open_bound.is_none() || self.least_factor >= LINEAR_TRUST;
         let report = PosteriorReport {
             strategy: name(search),
             stop,
@@ -117,7 +121,8 @@ impl Running<'_> {
             best,
             open_bound,
             rest,
-            proved: self.least_factor >= LINEAR_TRUST && best.map_or(open_bound.is_none(), beats_rest),
+            proved: is_sound && self.unsolvable.is_none() && best.map_or(open_bound.is_none(), beats_rest),
+            unsolvable: self.unsolvable.is_some(),
             levels: self.tally.levels,
             seconds,
             bytes: self.tree.bytes() + self.frontier.bytes(),
@@ -176,7 +181,7 @@ pub struct Posterior {
 }
 
 impl Posterior {
-    /// The maps found, the most probable first, equally probable ones in order of creation.
+    /// The maps found, the most probable first.
     #[must_use]
     pub fn maps(&self) -> &[ProbableMap] {
         &self.maps

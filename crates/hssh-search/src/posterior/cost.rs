@@ -10,7 +10,7 @@ use crate::posterior::outlook::Outlook;
 
 /// The cost of a hypothesis in nats, item by item. A map with the cost c has the posterior probability e⁻ᶜ, up
 /// to a factor that all maps share. No item ever falls along a branch, except that a price of new places
-/// may be negative if odometry is very poor.
+/// may be negative if odometry is very poor, or corridors are very short.
 #[derive(Clone, Copy, PartialEq, Debug, Default, Serialize)]
 pub struct Cost {
     /// χ²/2 of the best layout: what its bending costs.
@@ -25,13 +25,15 @@ pub struct Cost {
     pub choices: f64,
     /// ln F.
     pub complexity: f64,
+    /// How much less alike visits to one place look than the most alike visits there are.
+    pub appearance: f64,
 }
 
 impl Cost {
     /// The sum.
     #[must_use]
     pub fn total(&self) -> f64 {
-        self.bend + self.vagueness + self.places + self.choices + self.complexity
+        self.bend + self.vagueness + self.places + self.choices + self.complexity + self.appearance
     }
 
     /// The same with another χ².

@@ -9,10 +9,10 @@ use crate::context::Context;
 use crate::crew::{Look, Scratch, Step, expand};
 use crate::frames::Trail;
 use crate::measured::{Measured, PlacedTravel};
+use crate::posterior::appearance::Appearance;
 use crate::posterior::cost::{Cost, Tariff};
 use crate::posterior::layout::{Layout, Strain};
 use crate::posterior::leaf::{Leaf, Placing};
-use crate::posterior::outlook::LINEAR_TRUST;
 use crate::report::Tally;
 use crate::tree::{Child, Cursor, NodeId, Tree};
 
@@ -35,6 +35,8 @@ pub(crate) struct Grower<'a> {
     pub(crate) tariff: &'a Tariff,
     /// Nothing if the model ignores measurements.
     pub(crate) measured: Option<&'a Measured>,
+    /// What visits look like beyond their stars.
+    pub(crate) appearance: &'a Appearance,
     pub(crate) guess: Guess,
 }
 
@@ -98,7 +100,7 @@ impl Grower<'_> {
     }
 
     /// Lays a hypothesis out, so that its cost is known. By what factor χ² rose of what the linear estimate
-    /// promised.
+    /// promised, if that was relied on.
     pub(crate) fn settle(
         &self,
         leaf: &mut Leaf,
@@ -112,7 +114,9 @@ impl Grower<'_> {
         let mut layout = origin.bent(&trail, measured, *promised)?;
         // χ² cannot fall along a branch: where it seems to, the parent was caught in a local minimum.
         layout.chi2 = layout.chi2.max(origin.chi2);
+        let relied_on = 2.0 * leaf.cost.bend > origin.chi2;
         let factor = (layout.chi2 - origin.chi2 + NEGLIGIBLE) / (promised - origin.chi2 + NEGLIGIBLE);
+        let factor = if relied_on { factor } else { 1.0 };
         leaf.cost = leaf.cost.with_chi2(layout.chi2);
         leaf.placing = Placing::Done(Arc::new(layout));
         self.appraise(leaf);
@@ -132,6 +136,7 @@ impl Grower<'_> {
         let travels_left = (self.context.travels() - travel - 1) as u32;
         let entry = experience.observations[travel].entry;
         let mut departure = self.departure(leaf, cursor, tree);
+        let first_visits = first_visits(&cursor.visits(leaf.node, tree, experience));
 
         let (mut successors, mut scratch) = (Vec::new(), Scratch::default());
         let outcome =
@@ -157,7 +162,13 @@ impl Grower<'_> {
             let is_new_place = matches!(child.growth, Some((_, Extension::NewPlace)));
             let mut cost = Cost { complexity, ..leaf.cost };
             cost.choices += if is_choice { choice } else { 0.0 };
-            cost.places += if is_new_place { self.tariff.new_place(travel) } else { 0.0 };
+            if is_new_place {
+                cost.places += self.tariff.new_place(travel);
+                cost.appearance += self.appearance.of_new_place(travel + 1);
+            } else {
+                let first = first_visits[position.place.index()];
+                cost.appearance += self.appearance.of_old_place(travel + 1, first, position.phi);
+            }
             let placing = match &mut departure {
                 None => Placing::Done(Layout::root()),
                 Some(departure) if is_new_place => Placing::Grown(Arc::clone(&departure.layout)),
@@ -165,7 +176,7 @@ impl Grower<'_> {
                     let strain = self.strain(departure, travel, position)?;
                     cost.vagueness += if self.tariff.is_evidence() { strain.vagueness } else { 0.0 };
                     let before = departure.layout.chi2;
-                    cost = cost.with_chi2(before + LINEAR_TRUST * strain.chi2);
+                    cost = cost.with_chi2(before + strain.trust * strain.chi2);
                     Placing::Strained(Arc::clone(&departure.layout), before + strain.chi2)
                 }
             };
@@ -197,12 +208,22 @@ impl Grower<'_> {
         if departure.marginals.is_none() {
             departure.marginals = Some(departure.layout.marginals(&departure.trail, measured)?);
         }
-        let marginals = departure.marginals.as_ref();
-        Ok(marginals.map_or_else(Strain::default, |marginals| Strain::of(&placed, marginals)))
+        departure.marginals.as_ref().map_or(Ok(Strain::default()), |marginals| Strain::of(&placed, marginals))
     }
 
     /// The layout of a settled leaf.
     pub(crate) fn layout(&self, leaf: &Leaf, cursor: &mut Cursor, tree: &Tree) -> Option<Arc<Layout>> {
         self.departure(leaf, cursor, tree).map(|departure| departure.layout)
     }
+}
+
+/// By place: the visit on which it was found.
+fn first_visits(visits: &[Position]) -> Vec<usize> {
+    let mut first = Vec::new();
+    for (visit, position) in visits.iter().enumerate() {
+        if position.place.index() == first.len() {
+            first.push(visit);
+        }
+    }
+    first
 }

@@ -6,6 +6,7 @@ use hssh_metrics::{Marginals, Options, Pose, PoseGraph, SolveError, chordal_pose
 
 use crate::frames::Trail;
 use crate::measured::{Measured, PlacedTravel};
+use crate::posterior::outlook::trust;
 
 /// The most likely poses of all places, the first at the origin.
 #[derive(Clone, PartialEq, Debug)]
@@ -34,13 +35,14 @@ impl Layout {
 
     /// The layout of a hypothesis that closes a loop in one with this layout, whose last travel it is.
     ///
-    /// Least squares start from this layout; if they end far above what the linear estimate promised, they
-    /// may have been caught in a local minimum, and start once more from the measurements alone.
+    /// Least squares start from this layout; if they end far above it, or above what the linear estimate promised,
+    /// they may have been caught in a local minimum, and start once more from the measurements alone.
     pub(crate) fn bent(&self, trail: &Trail, measured: &Measured, promised: f64) -> Result<Self, SolveError> {
         let loops = measured.chi2_of_loops(trail);
         let graph = &mut measured.graph(trail, &self.poses);
         let warm = minimum(graph)?;
-        if warm.chi2 + loops <= 1.0 + 1.5 * promised {
+        let chi2 = warm.chi2 + loops;
+        if chi2 <= 1.0 + 1.5 * promised && chi2 <= self.chi2 + SUSPICIOUS_RISE {
             return Ok(Layout { chi2: warm.chi2 + loops, ..warm });
         }
         let start = chordal_poses(graph)?;
@@ -50,6 +52,9 @@ impl Layout {
         Ok(Layout { chi2: best.chi2 + loops, ..best })
     }
 }
+
+/// A rise of χ² by one travel, beyond which a lower minimum is looked for.
+const SUSPICIOUS_RISE: f64 = 30.0;
 
 fn minimum(graph: &PoseGraph) -> Result<Layout, SolveError> {
     let solution = solve(graph, &Options::default())?;
@@ -61,17 +66,20 @@ fn minimum(graph: &PoseGraph) -> Result<Layout, SolveError> {
 pub(crate) struct Strain {
     /// The rise of χ².
     pub(crate) chi2: f64,
+    /// The share of it that can be relied on.
+    pub(crate) trust: f64,
     /// ½ ln(|C + H Σ Hᵀ| / |C|).
     pub(crate) vagueness: f64,
 }
 
 impl Strain {
-    pub(crate) fn of(travel: &PlacedTravel, marginals: &Marginals) -> Self {
+    pub(crate) fn of(travel: &PlacedTravel, marginals: &Marginals) -> Result<Self, SolveError> {
         if travel.from == travel.to {
-            return Strain { chi2: travel.chi2_as_loop(), vagueness: 0.0 };
+            return Ok(Strain { chi2: travel.chi2_as_loop(), trust: 1.0, vagueness: 0.0 });
         }
         let PlacedTravel { from, to, pose, covariance } = travel;
-        let constraint = marginals.new_constraint(*from, *to, *pose, covariance);
-        Strain { chi2: constraint.chi2_rise, vagueness: 0.5 * constraint.log_determinant_rise.max(0.0) }
+        let constraint = marginals.new_constraint(*from, *to, *pose, covariance)?;
+        let vagueness = 0.5 * constraint.log_determinant_rise.max(0.0);
+        Ok(Strain { chi2: constraint.chi2_rise, trust: trust(constraint.heading_variance), vagueness })
     }
 }

@@ -1,6 +1,7 @@
 //! The most probable maps, given measured travels (chapter 4).
 
 mod answer;
+mod appearance;
 mod cost;
 mod frontier;
 mod grower;
@@ -11,6 +12,7 @@ mod outlook;
 mod search;
 
 pub use answer::{Posterior, PosteriorReport, ProbableMap};
+pub use appearance::Appearance;
 pub use cost::Cost;
 pub use model::{Corridor, MapPrior, Metrical, ModelError, PlacePrior, PosteriorModel};
 pub use outlook::LINEAR_TRUST;

@@ -62,8 +62,7 @@ impl Corridor {
     #[must_use]
     pub fn typical_of(exploration: &Exploration) -> Option<Self> {
         let odometry = exploration.travels().iter().filter_map(|travel| travel.odometry.as_ref());
-        let mut logs: Vec<f64> =
-            odometry.map(|measured| measured.x.hypot(measured.y).max(f64::MIN_POSITIVE).ln()).collect();
+        let mut logs: Vec<f64> = odometry.map(|measured| distance(measured).ln()).collect();
         logs.sort_by(f64::total_cmp);
         let median = *logs.get(logs.len() / 2)?;
         let variance = logs.iter().map(|log| (log - median).powi(2)).sum::<f64>() / logs.len() as f64;
@@ -74,7 +73,7 @@ impl Corridor {
     /// The log-density of (x, y, θ) for a corridor that leaves by a gateway with the bearing `exit` and
     /// arrives by one with the bearing `entry`; each in the frame of its place, where measured.
     fn log_density(self, measured: &Odometry, exit: Option<f64>, entry: Option<f64>) -> f64 {
-        let distance = measured.x.hypot(measured.y).max(f64::MIN_POSITIVE);
+        let distance = distance(measured);
         let way = measured.y.atan2(measured.x);
         let way_back = wrap_angle(way + std::f64::consts::PI - measured.theta); // in the arrival frame
         let along = (distance / self.length).ln() / self.spread;
@@ -90,6 +89,12 @@ impl Corridor {
         let straight = (-0.5 * off * off).exp() / (TAU.sqrt() * self.deviation);
         ((1.0 - self.crooked) * straight + self.crooked / TAU).ln()
     }
+}
+
+/// How far a travel led, m: no less than its own standard deviation, below which nothing is known.
+fn distance(measured: &Odometry) -> f64 {
+    let [[x, ..], [_, y, _], _] = measured.covariance;
+    measured.x.hypot(measured.y).max(((x + y) / 2.0).sqrt())
 }
 
 impl PlacePrior {
@@ -110,7 +115,7 @@ pub enum MapPrior {
     /// (4.17): in inverse proportion to F.
     Simplicity(Simplicity),
     /// Wherever the exploration says nothing, each consistent extension of the map is as probable as any
-    /// other. The probabilities of all maps add up to one.
+    /// other. The probabilities of all maps add up to one at most.
     Choices,
 }
 
@@ -134,13 +139,13 @@ impl PosteriorModel {
         prior: MapPrior::Simplicity(Simplicity { c1: 0.0, c2: 2.0, c3: 1.0 }),
     };
 
-    /// The evidence with corridors typical of the exploration, every choice of an extension being as
-    /// probable as any other. `None` if no distance was measured.
+    /// The evidence with corridors typical of the exploration, all maps being as probable beforehand. `None`
+    /// if no distance was measured.
     #[must_use]
     pub fn evidence(exploration: &Exploration) -> Option<Self> {
         let corridor = Corridor::typical_of(exploration)?;
         let metrical = Metrical::Evidence(PlacePrior::Corridor(corridor));
-        Some(PosteriorModel { metrical, prior: MapPrior::Choices })
+        Some(PosteriorModel { metrical, prior: MapPrior::Flat })
     }
 
     /// Checks that all weights and widths make sense.

@@ -15,6 +15,14 @@ use crate::measured::Measured;
 /// estimate of a rise of χ² holds for small turns; a layout that can turn at will may get away with less.
 pub const LINEAR_TRUST: f64 = 0.1;
 
+/// The standard deviation of a heading up to which linear estimates are trusted at all: rad.
+const MOST_HEADING_DEVIATION: f64 = 0.3;
+
+/// The share of a linear estimate that can be relied on where a turn is known with that variance, rad².
+pub(crate) fn trust(heading_variance: f64) -> f64 {
+    if heading_variance <= MOST_HEADING_DEVIATION * MOST_HEADING_DEVIATION { LINEAR_TRUST } else { 0.0 }
+}
+
 /// Thresholds of χ²/2: the first, and the factor from one to the next.
 const FIRST_THRESHOLD: f64 = 0.5;
 const THRESHOLD_FACTOR: f64 = 1.25;
@@ -90,7 +98,7 @@ fn price_of_sameness(experience: &Experience, measured: Option<&Measured>) -> Ve
             let prices = Isomorphism::all(seen, first).map(|phi| match (measured, &way) {
                 (Some(measured), Some(way)) => {
                     let turn = measured.frames.turn_between(later, earlier, phi.rotation());
-                    LINEAR_TRUST * half_chi2(way, turn)
+                    trust(way.covariance.matrix()[(2, 2)]) * half_chi2(way, turn)
                 }
                 _ => 0.0,
             });

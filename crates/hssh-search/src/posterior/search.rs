@@ -14,6 +14,7 @@ use crate::limits::{Limits, Monitor, StopReason, Watch};
 use crate::mapper::{Goal, ThreadsError};
 use crate::measured::{Measured, MeasurementError};
 use crate::posterior::answer::{Found, Posterior};
+use crate::posterior::appearance::Appearance;
 use crate::posterior::cost::Tariff;
 use crate::posterior::frontier::{Frontier, log_sum};
 use crate::posterior::grower::{Grower, Guess};
@@ -69,6 +70,8 @@ pub struct PosteriorSearch {
     pub model: PosteriorModel,
     /// What makes it possible.
     pub axioms: Axioms,
+    /// What visits look like beyond their stars. By default nothing is known.
+    pub appearance: Appearance,
     /// In which order to look.
     pub order: PosteriorOrder,
     /// Which maps to accept.
@@ -89,8 +92,15 @@ pub enum PosteriorError {
     #[error(transparent)]
     Measurement(#[from] MeasurementError),
     /// A layout cannot be found.
-    #[error("the travels allow no layout: {0}")]
-    Solve(#[from] SolveError),
+    #[error(
+        "no layout of the first {travels} travels can be computed; is an odometry among them out of all proportion? {problem}"
+    )]
+    Solve {
+        /// How many travels were to be laid out.
+        travels: usize,
+        /// Why they cannot be.
+        problem: SolveError,
+    },
     /// No threads.
     #[error(transparent)]
     Threads(#[from] ThreadsError),
@@ -110,6 +120,7 @@ impl PosteriorSearch {
         PosteriorSearch {
             model,
             axioms: Axioms::default(),
+            appearance: Appearance::default(),
             order: PosteriorOrder::Proof(Proving::default()),
             goal: Goal::default(),
             limits: Limits::default(),
@@ -140,14 +151,23 @@ impl PosteriorSearch {
             PosteriorOrder::BestFirst => Guess::Parent,
             PosteriorOrder::Proof(_) => Guess::Linear,
         };
-        let grower = Grower { context, tariff: &tariff, measured: measured.as_ref(), guess };
+        let grower = Grower {
+            context,
+            tariff: &tariff,
+            measured: measured.as_ref(),
+            appearance: &self.appearance,
+            guess,
+        };
 
         let mut search = Running::new(grower, self.goal);
         let stop = match self.order {
-            PosteriorOrder::BestFirst => search.best_first()?,
-            PosteriorOrder::Proof(proving) => search.prove(proving)?,
+            PosteriorOrder::BestFirst => search.best_first(),
+            PosteriorOrder::Proof(proving) => search.prove(proving),
         };
         let seconds = started.elapsed().as_secs_f64();
+        if let (true, Some((travels, problem))) = (search.found.is_empty(), search.unsolvable) {
+            return Err(PosteriorError::Solve { travels, problem });
+        }
         Ok(search.end(self, stop, seconds).into_posterior(experience, measured))
     }
 }
@@ -168,6 +188,8 @@ pub(crate) struct Running<'a> {
     pub(crate) solved: u64,
     /// The least factor by which χ² rose of what the linear estimate promised.
     pub(crate) least_factor: f64,
+    /// How many travels the first hypothesis explains that has no computable layout, and why it has none.
+    pub(crate) unsolvable: Option<(usize, SolveError)>,
     /// What a map may cost and still matter.
     pub(crate) reach: f64,
 }
@@ -184,6 +206,7 @@ impl<'a> Running<'a> {
             rejected: 0,
             solved: 0,
             least_factor: 1.0,
+            unsolvable: None,
             reach: f64::INFINITY,
             goal,
             grower,
@@ -191,38 +214,38 @@ impl<'a> Running<'a> {
     }
 
     /// The thesis's search: only the successors of the most probable hypothesis are made.
-    fn best_first(&mut self) -> Result<StopReason, SolveError> {
+    fn best_first(&mut self) -> StopReason {
         while let Some(explained) = self.frontier.next_level() {
             if let Some(reason) = self.stop() {
-                return Ok(reason);
+                return reason;
             }
             let Some(mut leaf) = self.frontier.pop(explained) else { break };
             if !leaf.is_settled() {
-                self.settle(&mut leaf)?;
+                self.settle(&mut leaf);
                 self.frontier.push(leaf); // its turn may be later now
             } else if explained < self.grower.context.travels() {
-                self.grow(&leaf)?;
+                self.grow(&leaf);
             } else if self.goal.accepts(leaf.pending == 0) {
                 self.arrive(&leaf);
-                return Ok(StopReason::Found);
+                return StopReason::Found;
             } else {
                 self.rejected += 1;
             }
         }
-        Ok(StopReason::Exhausted)
+        StopReason::Exhausted
     }
 
     /// Cyclic best-first until the best maps are proved, and so little probability is left as was asked for.
-    fn prove(&mut self, proving: Proving) -> Result<StopReason, SolveError> {
+    fn prove(&mut self, proving: Proving) -> StopReason {
         let travels = self.grower.context.travels();
         let mut slack = 0.0; // of the reach, beyond the worst of the best maps
         loop {
             let mut idle = true;
             for explained in 0..=travels {
-                while let Some(leaf) = self.next(explained)? {
+                while let Some(leaf) = self.next(explained) {
                     idle = false;
                     if explained < travels {
-                        self.grow(&leaf)?;
+                        self.grow(&leaf);
                         break;
                     }
                     if self.goal.accepts(leaf.pending == 0) {
@@ -231,9 +254,12 @@ impl<'a> Running<'a> {
                         self.rejected += 1;
                     }
                     self.reach = self.needed(proving.best) + slack;
+                    if let Some(reason) = self.stop() {
+                        return reason;
+                    }
                 }
                 if let Some(reason) = self.stop() {
-                    return Ok(reason);
+                    return reason;
                 }
             }
             if !idle {
@@ -247,24 +273,24 @@ impl<'a> Running<'a> {
             self.reach = self.needed(proving.best) + slack;
             self.frontier.unpark(self.reach);
         }
-        Ok(if self.found.is_empty() { StopReason::Exhausted } else { StopReason::Proved })
+        if self.found.is_empty() { StopReason::Exhausted } else { StopReason::Proved }
     }
 
     /// The next hypothesis that explains so many travels and that something may come of. It is settled.
-    fn next(&mut self, explained: usize) -> Result<Option<Leaf>, SolveError> {
+    fn next(&mut self, explained: usize) -> Option<Leaf> {
         while let Some(mut leaf) = self.frontier.pop(explained) {
             if leaf.bound <= self.reach && !leaf.is_settled() {
-                self.settle(&mut leaf)?;
+                self.settle(&mut leaf);
             }
             if leaf.bound > self.reach {
                 self.frontier.park(leaf);
             } else if self.frontier.peek(explained).is_some_and(|other| *other < leaf) {
                 self.frontier.push(leaf);
             } else {
-                return Ok(Some(leaf));
+                return Some(leaf);
             }
         }
-        Ok(None)
+        None
     }
 
     /// What the last of so many best maps costs, equal ones included; unlimited if there are fewer.
@@ -284,17 +310,25 @@ impl<'a> Running<'a> {
         self.grower.context.stop(&self.tree, self.frontier.bytes())
     }
 
-    fn settle(&mut self, leaf: &mut Leaf) -> Result<(), SolveError> {
+    fn settle(&mut self, leaf: &mut Leaf) {
         self.solved += 1;
-        let factor = self.grower.settle(leaf, &mut self.cursor, &self.tree)?;
-        self.least_factor = self.least_factor.min(factor);
-        Ok(())
+        match self.grower.settle(leaf, &mut self.cursor, &self.tree) {
+            Ok(factor) => self.least_factor = self.least_factor.min(factor),
+            Err(problem) => {
+                self.unsolvable.get_or_insert((leaf.depth, problem));
+                (leaf.bound, leaf.turn) = (f64::INFINITY, f64::INFINITY);
+            }
+        }
     }
 
-    fn grow(&mut self, leaf: &Leaf) -> Result<(), SolveError> {
+    fn grow(&mut self, leaf: &Leaf) {
         let Running { grower, cursor, tree, tally, .. } = self;
         let travels = grower.context.travels();
-        for next in grower.grow(leaf, cursor, tree, tally)? {
+        let grown = grower.grow(leaf, cursor, tree, tally).unwrap_or_else(|problem| {
+            self.unsolvable.get_or_insert((leaf.depth + 1, problem));
+            Vec::new()
+        });
+        for next in grown {
             // A travel uses up two pending gateways at most.
             let closable = next.pending as usize <= 2 * (travels - next.depth);
             if next.depth < travels && !self.goal.accepts(closable) {
@@ -305,7 +339,6 @@ impl<'a> Running<'a> {
                 self.frontier.push(next);
             }
         }
-        Ok(())
     }
 
     /// A map that explains everything.

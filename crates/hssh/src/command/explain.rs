@@ -1,7 +1,7 @@
 //! `hssh explain`: how a map explains an exploration, travel by travel, in words.
 
 use hssh_causal::Exploration;
-use hssh_search::{Experience, NodeId};
+use hssh_search::{Appearance, Experience, NodeId};
 use hssh_topology::{
     Discovery, Hypothesis, MapSketch, Measure, Olp, Replay, ReplayedTravel, Star, violations,
 };
@@ -43,7 +43,7 @@ pub(crate) fn run(options: &ExplainOptions) -> Result<Status, Failure> {
             Ok(preferred::status_of(&report))
         }
         Task::Weigh(order) => {
-            let posterior = probable::search(&options.search, order, &exploration)?;
+            let posterior = probable::search(&options.search, order, &exploration, Appearance::default())?;
             let nodes: Vec<NodeId> = posterior.maps().iter().map(|map| map.node).collect();
             let of = |node| posterior.hypothesis(node);
             explain(options, &exploration, posterior.experience(), of, &nodes, posterior.report())?;

@@ -37,7 +37,7 @@ pub(crate) fn run(options: &ExploreOptions) -> Result<Status, Failure> {
 
 /// A CARMEN log, plain or gzip; warnings go to standard error.
 pub(crate) fn read_log(file: &Path) -> Result<LaserLog, Failure> {
-    let unreadable = |error| Failure::ReadLog { file: file.to_owned(), error };
+    let unreadable = |error| Failure::ReadLog { file: file.to_owned(), error: Box::new(error) };
     let source: Box<dyn std::io::Read> = if file.as_os_str() == "-" {
         Box::new(std::io::stdin().lock())
     } else {
@@ -70,8 +70,8 @@ pub(crate) fn surveyed(file: &Path, log: &LaserLog) -> Result<Survey, Failure> {
     Ok(found)
 }
 
-fn failed(file: &Path, error: SurveyError) -> Failure {
-    Failure::Survey { file: file.to_owned(), error }
+pub(crate) fn failed(file: &Path, error: SurveyError) -> Failure {
+    Failure::Survey { file: file.to_owned(), error: Box::new(error) }
 }
 
 fn warn(file: &Path, warnings: &[impl std::fmt::Display]) {

@@ -4,13 +4,16 @@ use std::path::Path;
 
 use hssh_draw::{GridPicture, draw_grid};
 use hssh_local::{
-    LocalStar, Neighborhood, OccupancyGrid, PlaceGraph, PlaceKind, PlaceParameters, neighborhood,
-    read_floor_plan, read_map,
+    DistanceField, LocalMapOptions, LocalStar, Neighborhood, Occupancy, OccupancyGrid, PlaceGraph, PlaceKind,
+    PlaceParameters, Visit, global_map, neighborhood, read_floor_plan, read_map,
 };
+use hssh_metrics::Pose;
 use serde::Serialize;
 
 use crate::arguments::StarsOptions;
+use crate::command::explore::{read_log, surveyed};
 use crate::failure::{Failure, Status};
+use crate::input::is_log;
 use crate::output::{counted, print, print_json, write_file};
 
 /// The side of the part of the map that is looked at around one point, in metres.
@@ -53,6 +56,9 @@ struct EndReport {
 }
 
 pub(crate) fn run(options: &StarsOptions) -> Result<Status, Failure> {
+    if is_log(&options.map)? {
+        return along(options);
+    }
     let parameters = options.parameters();
     let grid = read(&options.map, options.resolution)?;
     match options.at {
@@ -96,6 +102,46 @@ fn everywhere(
         print(&report.text(&options.map, grid))?;
     }
     Ok(if report.places.is_empty() { Status::NothingConsistent } else { Status::Found })
+}
+
+/// The places that a robot visited, in the frame of its track.
+fn along(options: &StarsOptions) -> Result<Status, Failure> {
+    let log = read_log(&options.map)?;
+    let survey = surveyed(&options.map, &log)?;
+    if let Some(file) = &options.svg {
+        let track: Vec<Pose> = survey.track.scans.iter().map(|scan| scan.pose).collect();
+        let grid = global_map(&log, &track, &LocalMapOptions::default())
+            .map_err(|error| failure(&options.map, error))?;
+        let place = |visit: &Visit| [visit.frame.x, visit.frame.y];
+        let places = survey.visits.iter().map(|visit| (place(visit), &visit.star)).collect();
+        write_file(file, &draw_grid(&grid, &GridPicture { places, ..GridPicture::default() }))?;
+    }
+    let clearance = |visit: &Visit| {
+        let lattice = *visit.grid.lattice();
+        let field = DistanceField::new(lattice, |index| visit.grid.cells()[index] == Occupancy::Occupied);
+        let cell = lattice.cell_at([visit.frame.x, visit.frame.y]);
+        cell.map_or(0.0, |cell| field.clearance(cell))
+    };
+    let place = |visit: &Visit| {
+        let kind = match visit.star.gateways().count() {
+            1 => PlaceKind::DeadEnd,
+            2 => PlaceKind::Corner,
+            _ => PlaceKind::Junction,
+        };
+        PlaceReport::new(kind, [visit.frame.x, visit.frame.y], clearance(visit), &visit.star)
+    };
+    let places: Vec<PlaceReport> = survey.visits.iter().map(place).collect();
+    if options.json {
+        print_json(&Report { places, connections: Vec::new() })?;
+    } else {
+        let visits = counted(places.len(), "visit");
+        let mut text = format!("{}: {visits}, in the frame of the robot's track\n", options.map.display());
+        for (number, place) in places.iter().enumerate() {
+            text += &place.text(number);
+        }
+        print(&text)?;
+    }
+    Ok(Status::Found)
 }
 
 /// The place around one point.

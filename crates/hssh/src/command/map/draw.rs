@@ -2,15 +2,15 @@
 
 use std::path::{Path, PathBuf};
 
-use hssh_causal::Exploration;
 use hssh_draw::{
     Bearings, Layout, MapOptions as DrawOptions, SearchTree, TreeOptions, draw_map, draw_tree, map_to_dot,
     tree_to_dot,
 };
 use hssh_metrics::{GraphFile, Marginals, PoseGraph};
-use hssh_search::{Cursor, Experience, NodeId, Tree, place_by_odometry};
+use hssh_search::{Cursor, Experience, NodeId, Tree};
 use nalgebra::Matrix2;
 
+use super::Source;
 use crate::arguments::MapOptions;
 use crate::failure::Failure;
 use crate::output::write_file;
@@ -18,45 +18,49 @@ use crate::output::write_file;
 /// What there is to draw.
 #[derive(Clone, Copy)]
 pub(super) struct Pictures<'a> {
-    pub(super) exploration: &'a Exploration,
+    pub(super) source: &'a Source,
     pub(super) tree: &'a Tree,
     pub(super) experience: &'a Experience,
-    /// The maps that are equally good.
-    pub(super) best: &'a [NodeId],
+    /// The maps that are equally good, each with its pose graph, laid out, if it has odometry.
+    pub(super) best: &'a [(NodeId, Option<PoseGraph>)],
     /// What they are, in the singular.
     pub(super) kind: &'static str,
 }
 
 /// Whether any picture or file is asked for.
 pub(super) fn is_asked(options: &MapOptions) -> bool {
-    [&options.svg, &options.dot, &options.tree, &options.g2o].iter().any(|file| file.is_some())
+    [&options.svg, &options.dot, &options.tree, &options.g2o, &options.grid].iter().any(|file| file.is_some())
 }
 
 /// Draws the tree, and the best maps.
 pub(super) fn draw(options: &MapOptions, pictures: &Pictures<'_>) -> Result<(), Failure> {
-    let Pictures { exploration, tree, experience, best, kind } = *pictures;
+    let Pictures { source, tree, experience, best, kind } = *pictures;
+    let exploration = &source.exploration;
     let bearings = Bearings(exploration.star_types().iter().map(|named| named.bearings.clone()).collect());
     if let Some(file) = &options.tree {
         let drawn = TreeOptions { bearings: bearings.clone(), ..TreeOptions::default() };
-        let tree = SearchTree::of(tree, experience, best, drawn.most_maps);
+        let nodes: Vec<NodeId> = best.iter().map(|(node, _)| *node).collect();
+        let tree = SearchTree::of(tree, experience, &nodes, drawn.most_maps);
         let is_dot = file.extension().is_some_and(|ending| ending == "dot");
         let text = if is_dot { tree_to_dot(&tree, &drawn)? } else { draw_tree(&tree, &drawn)? };
         write_file(file, &text)?;
     }
     let mut cursor = Cursor::new(experience);
-    for (index, &node) in best.iter().enumerate() {
-        let files = [&options.svg, &options.dot, &options.g2o].map(|file| numbered(file.as_deref(), index));
+    for (index, (node, graph)) in best.iter().enumerate() {
+        let node = *node;
+        let files = [&options.svg, &options.dot, &options.g2o, &options.grid]
+            .map(|file| numbered(file.as_deref(), index));
         if files.iter().all(Option::is_none) {
             break;
         }
-        let [svg, dot, g2o] = files;
-        let placement = place_by_odometry(exploration, &cursor.visits(node, tree, experience))?;
+        let [svg, dot, g2o, grid] = files;
+        let visits = cursor.visits(node, tree, experience);
         let hypothesis = cursor.go_to(node, tree, experience);
         let map = &hypothesis.map;
-        let layout = match &placement {
-            Some(placement) => {
-                let layout = Layout::measured(map, placement.graph.poses().to_vec(), &bearings)?;
-                layout.with_covariances(covariances(&placement.graph)?)
+        let layout = match graph {
+            Some(graph) => {
+                let layout = Layout::measured(map, graph.poses().to_vec(), &bearings)?;
+                layout.with_covariances(covariances(graph)?)
             }
             None => Layout::schematic(map, &bearings)?,
         };
@@ -72,9 +76,12 @@ pub(super) fn draw(options: &MapOptions, pictures: &Pictures<'_>) -> Result<(), 
         if let Some(file) = dot {
             write_file(&file, &map_to_dot(map, &experience.catalog, &drawn))?;
         }
+        if let (Some(file), Some(surveyed), Some(graph)) = (grid, &source.surveyed, graph) {
+            surveyed.write_grid(&file, &visits, graph)?;
+        }
         if let Some(file) = g2o {
-            let graph = placement.ok_or(Failure::NoOdometry)?.graph;
-            write_file(&file, &GraphFile::from(graph).to_g2o())?;
+            let graph = graph.as_ref().ok_or(Failure::NoOdometry)?;
+            write_file(&file, &GraphFile::from(graph.clone()).to_g2o())?;
         }
     }
     Ok(())

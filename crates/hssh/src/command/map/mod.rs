@@ -1,23 +1,46 @@
 //! `hssh map`: the maps that explain an exploration, ranked and drawn.
 
 mod draw;
+mod log;
 pub(crate) mod preferred;
 pub(crate) mod probable;
 
+use hssh_causal::Exploration;
+
 use crate::arguments::{MapOptions, Task};
 use crate::failure::{Failure, Status};
-use crate::input::read_exploration;
+use crate::input::{is_log, read_exploration};
+use log::Surveyed;
+
+/// What maps are to explain.
+pub(crate) struct Source {
+    pub(crate) exploration: Exploration,
+    /// The laser log that it was made of.
+    surveyed: Option<Surveyed>,
+}
 
 pub(crate) fn run(options: &MapOptions) -> Result<Status, Failure> {
-    let exploration = read_exploration(&options.file)?;
-    let exploration = exploration.prefix(options.search.travels.unwrap_or(usize::MAX));
-    match options.search.task(&exploration)? {
-        Task::Prefer(strategy) => preferred::run(options, strategy, &exploration),
-        Task::Weigh(order) => probable::run(options, order, &exploration),
+    let travels = options.search.travels.unwrap_or(usize::MAX);
+    let mut source = read(options)?;
+    source.exploration = source.exploration.prefix(travels);
+    match options.search.task(&source.exploration)? {
+        Task::Prefer(strategy) => preferred::run(options, strategy, &source),
+        Task::Weigh(order) => probable::run(options, order, &source),
         Task::Count if draw::is_asked(options) => {
             let help = "counting keeps no maps to draw: choose another --search for pictures";
             Err(Failure::Usage(help.to_owned()))
         }
-        Task::Count => preferred::run_count(options, &exploration),
+        Task::Count => preferred::run_count(options, &source.exploration),
     }
+}
+
+fn read(options: &MapOptions) -> Result<Source, Failure> {
+    if is_log(&options.file)? {
+        return log::read(&options.file);
+    }
+    if options.grid.is_some() || options.likeness != 0.0 {
+        let help = "--grid and --likeness need a laser log: an exploration has no scans";
+        return Err(Failure::Usage(help.to_owned()));
+    }
+    Ok(Source { exploration: read_exploration(&options.file)?, surveyed: None })
 }

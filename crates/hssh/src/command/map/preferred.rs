@@ -1,11 +1,12 @@
 //! The maps that are preferred, as a table or as JSON.
 
 use hssh_causal::Exploration;
-use hssh_search::{Levels, Mapper, RankedMap, Report, StopReason, Strategy};
+use hssh_search::{Levels, Mapper, RankedMap, Report, StopReason, Strategy, place_by_odometry};
 use hssh_topology::{MapSketch, Position};
 use serde::Serialize;
 
-use super::draw::{Pictures, draw};
+use super::Source;
+use super::draw::{Pictures, draw, is_asked};
 use crate::arguments::{MapOptions, SearchOptions};
 use crate::failure::{Failure, Status};
 use crate::output::{counted, print, print_json};
@@ -38,18 +39,18 @@ struct Entry {
 }
 
 /// Searches by preference and answers.
-pub(crate) fn run(
-    options: &MapOptions,
-    strategy: Strategy,
-    exploration: &Exploration,
-) -> Result<Status, Failure> {
-    let mapper = search(&options.search, strategy, exploration)?;
+pub(crate) fn run(options: &MapOptions, strategy: Strategy, source: &Source) -> Result<Status, Failure> {
+    let mapper = search(&options.search, strategy, &source.exploration)?;
     let (report, maps) = mapper.answer(if options.all { usize::MAX } else { options.top });
     print_answer(options, &mapper, &report, &maps)?;
-    let best: Vec<_> = maps.iter().take(best_of(&report, &maps)).map(|map| map.node).collect();
+    let mut best = Vec::new();
+    for map in maps.iter().take(if is_asked(options) { best_of(&report, &maps) } else { 0 }) {
+        let placement = place_by_odometry(&source.exploration, &mapper.visits(map.node))?;
+        best.push((map.node, placement.map(|placement| placement.graph)));
+    }
     let kind = if report.is_optimal { "optimal map" } else { "best map found" };
     let (tree, experience) = (mapper.tree(), mapper.experience());
-    draw(options, &Pictures { exploration, tree, experience, best: &best, kind })?;
+    draw(options, &Pictures { source, tree, experience, best: &best, kind })?;
     Ok(status_of(&report))
 }
 

@@ -5,11 +5,13 @@ use std::fmt::Write;
 use hssh_causal::Exploration;
 use hssh_metrics::Pose;
 use hssh_search::{
-    Cost, Distinction, Posterior, PosteriorOrder, PosteriorReport, Prediction, ProbableMap, StopReason,
+    Appearance, Cost, Distinction, LINEAR_TRUST, Posterior, PosteriorOrder, PosteriorReport, PosteriorSearch,
+    Prediction, ProbableMap, StopReason, place_by_odometry,
 };
 use hssh_topology::{MapOlp, MapSketch, Measure, PlaceId, Position, StarCatalog};
 use serde::Serialize;
 
+use super::Source;
 use super::draw::{Pictures, draw};
 use crate::arguments::{MapOptions, SearchOptions};
 use crate::failure::{Failure, Status};
@@ -45,12 +47,12 @@ struct Entry {
 }
 
 /// Searches by posterior and answers.
-pub(crate) fn run(
-    options: &MapOptions,
-    order: PosteriorOrder,
-    exploration: &Exploration,
-) -> Result<Status, Failure> {
-    let posterior = search(&options.search, order, exploration)?;
+pub(crate) fn run(options: &MapOptions, order: PosteriorOrder, source: &Source) -> Result<Status, Failure> {
+    let appearance = match &source.surveyed {
+        Some(surveyed) if options.likeness != 0.0 => surveyed.appearance(options.likeness),
+        _ => Appearance::default(),
+    };
+    let posterior = search(&options.search, order, &source.exploration, appearance)?;
     let report = posterior.report();
     let listed = if options.all { usize::MAX } else { options.top };
     let maps = &posterior.maps()[..posterior.maps().len().min(listed)];
@@ -60,10 +62,18 @@ pub(crate) fn run(
         print(&text(options, &posterior, maps))?;
     }
     let ties = maps.len().min(report.ties as usize);
-    let best: Vec<_> = maps[..ties].iter().map(|map| map.node).collect();
+    let mut best = Vec::new();
+    for map in &maps[..ties] {
+        let placed = match posterior.pose_graph(map) {
+            None => place_by_odometry(&source.exploration, &posterior.visits(map.node))?
+                .map(|placed| placed.graph),
+            found => found,
+        };
+        best.push((map.node, placed));
+    }
     let kind = if report.proved { "most probable map" } else { "most probable map found" };
     let (tree, experience) = (posterior.tree(), posterior.experience());
-    draw(options, &Pictures { exploration, tree, experience, best: &best, kind })?;
+    draw(options, &Pictures { source, tree, experience, best: &best, kind })?;
     Ok(status_of(&posterior))
 }
 
@@ -72,9 +82,13 @@ pub(crate) fn search(
     options: &SearchOptions,
     order: PosteriorOrder,
     exploration: &Exploration,
+    appearance: Appearance,
 ) -> Result<Posterior, Failure> {
     let travels = exploration.travels().len();
-    watched(travels, |monitor| Ok(options.weighing(order, exploration, monitor)?.explain(exploration)?))
+    watched(travels, |monitor| {
+        let search = options.weighing(order, exploration, monitor)?;
+        Ok(PosteriorSearch { appearance, ..search }.explain(exploration)?)
+    })
 }
 
 pub(crate) fn status_of(posterior: &Posterior) -> Status {
@@ -117,7 +131,7 @@ fn text(options: &MapOptions, posterior: &Posterior, maps: &[ProbableMap]) -> St
     }
     text += &verdict(report, maps);
     if !maps.is_empty() {
-        text += "\n  rank   probability      cost    χ²/2    f1   paths  places  genus  closed\n";
+        text += "\n  rank   probability       cost     χ²/2    f1   paths  places  genus  closed\n";
     }
     let ties = report.ties as usize;
     for (index, map) in maps.iter().enumerate() {
@@ -127,7 +141,7 @@ fn text(options: &MapOptions, posterior: &Posterior, maps: &[ProbableMap]) -> St
         let (rank, probability, cost, bend) = (index + 1, map.probability, map.cost.total(), map.cost.bend);
         let _ = writeln!(
             text,
-            "{rank:>6} {mark}{probability:>13.3e}{cost:>10.3}{bend:>8.2}{f1:>6}{f2:>8}{f3:>8}{genus:>7}  {closed}"
+            "{rank:>6} {mark}{probability:>13.3e}{cost:>11.3}{bend:>9.2}{f1:>6}{f2:>8}{f3:>8}{genus:>7}  {closed}"
         );
     }
     let unlisted = report.found - maps.len() as u64;
@@ -153,6 +167,18 @@ fn verdict(report: &PosteriorReport, maps: &[ProbableMap]) -> String {
         (false, _) if report.stop == StopReason::Found => {
             "This map explains the exploration; whether a more probable one exists was not searched."
                 .to_owned()
+        }
+        (false, _) if report.unsolvable => {
+            "Some layouts cannot be computed, so that nothing is proved: is an odometry out of all proportion?"
+                .to_owned()
+        }
+        (false, _) if report.linear_factor < LINEAR_TRUST => {
+            format!(
+                "{} found. The bound relied on linear estimates that proved wrong by more than a factor of {:.0}, so \
+                 that nothing is proved.",
+                counted(report.found as usize, "map"),
+                1.0 / LINEAR_TRUST
+            )
         }
         (false, _) => {
             format!("{} found; others may be more probable.", counted(report.found as usize, "map"))

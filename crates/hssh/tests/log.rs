@@ -1,0 +1,67 @@
+//! The way from a laser log to the map of the building, on a real log and on bad ones.
+
+#![allow(clippy::unwrap_used, reason = "in tests a failed unwrap is the failed assertion")]
+
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output};
+
+fn hssh(arguments: &[&str]) -> Output {
+    Command::new(env!("CARGO_BIN_EXE_hssh")).args(arguments).output().unwrap()
+}
+
+fn scratch(name: &str) -> PathBuf {
+    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("log");
+    std::fs::create_dir_all(&folder).unwrap();
+    folder.join(name)
+}
+
+/// Section 2.4 on the same floor: nine places, six paths, drawn and written as a grid.
+#[test]
+fn a_log_becomes_the_map_of_its_building() {
+    let Some(data) = std::env::var_os("HSSH_DATA") else {
+        println!("skipped: set HSSH_DATA to the folder that holds logs/aces.log.gz");
+        return;
+    };
+    let log = Path::new(&data).join("logs/aces.log.gz").to_string_lossy().into_owned();
+    let (grid, svg) = (scratch("aces.yaml"), scratch("aces.svg"));
+    let files = ["--grid", &grid.to_string_lossy(), "--svg", &svg.to_string_lossy()].map(str::to_owned);
+    let [a, b, c, d] = files.each_ref().map(String::as_str);
+    let output = hssh(&["map", &log, "--planar", "--json", "--likeness", "0.02", a, b, c, d]);
+    let answer: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
+    let best = &answer["ranking"][0];
+    assert_eq!((&answer["proved"], &answer["ties"]), (&true.into(), &1.into()));
+    assert_eq!((&best["f1"], &best["f2"], &best["f3"]), (&0.into(), &6.into(), &9.into()));
+    assert_eq!(best["closed"], true);
+    assert!(best["probability"][0].as_f64().unwrap() > 0.8, "{}", best["probability"]);
+    assert!(std::fs::read_to_string(&svg).unwrap().contains("<svg"));
+    assert_eq!(
+        hssh(&["stars", a.replace("--grid", &grid.to_string_lossy()).as_str()]).status.code(),
+        Some(0)
+    );
+}
+
+#[test]
+fn what_is_no_usable_log_is_refused() {
+    let cases: [(&str, &[u8], &str); 4] = [
+        ("odometry-only.log", b"PARAM robot_width 1\nODOM 0 0 0 0 0 0 0 host 0\n", "no usable laser scan"),
+        ("cut.log.gz", &[0x1f, 0x8b, 8, 0, 0, 0, 0, 0, 0, 3, 1], "laser"),
+        ("short.log", b"FLASER 180 1.0 2.0\n", "FLASER"),
+        ("one.log", b"FLASER 3 1 1 1 0 0 0 0 0 0 0.5 host 0.5\n", ""),
+    ];
+    for (name, bytes, expected) in cases {
+        let file = scratch(name);
+        std::fs::write(&file, bytes).unwrap();
+        let output = hssh(&["map", &file.to_string_lossy()]);
+        let said = String::from_utf8_lossy(&output.stderr).into_owned();
+        assert_eq!(output.status.code(), Some(2), "{name}: {said}");
+        assert!(said.contains(expected) && said.contains(name), "{name}: {said}");
+    }
+}
+
+#[test]
+fn grids_come_from_logs_only() {
+    let exploration = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../fixtures/aces.ron");
+    let output = hssh(&["map", &exploration.to_string_lossy(), "--grid", "grid.png"]);
+    assert_eq!(output.status.code(), Some(2));
+    assert!(String::from_utf8_lossy(&output.stderr).contains("need a laser log"));
+}
