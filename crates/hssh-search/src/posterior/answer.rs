@@ -63,7 +63,8 @@ pub struct PosteriorReport {
     pub expanded: u64,
     /// Layouts found by least squares.
     pub solved: u64,
-    /// The least factor by which χ² rose of what the linear estimate promised when a layout was solved. The bound
+    /// The least factor by which χ² rose of what the linear estimate promised, among the hypotheses that may still lead
+    /// to maps that matter. The bound
     /// relies on [`LINEAR_TRUST`] where headings are known well enough: a lower factor there invalidates the proof.
     pub linear_factor: f64,
     /// Maps found that explain everything.
@@ -106,7 +107,10 @@ impl Running<'_> {
         let open_bound = self.frontier.least_bound();
         let is_tied = |found: &&Found| best.is_some_and(|best| is_tie(best, found.cost.total()));
         let beats_rest = |best: f64| open_bound.is_none_or(|bound| bound > best && !is_tie(best, bound));
-        let is_sound = open_bound.is_none() || self.least_factor >= LINEAR_TRUST;
+        // A promise that was too high does no harm where even the truth is too high.
+        let within_reach = self.factors.iter().filter(|(bound, _)| *bound <= self.reach);
+        let linear_factor = within_reach.map(|&(_, factor)| factor).fold(1.0, f64::min);
+        let is_sound = open_bound.is_none() || linear_factor >= LINEAR_TRUST;
         let report = PosteriorReport {
             strategy: name(search),
             stop,
@@ -114,7 +118,7 @@ impl Running<'_> {
             nodes: self.tree.len() as u64,
             expanded: self.tally.expanded,
             solved: self.solved,
-            linear_factor: self.least_factor,
+            linear_factor,
             found: self.found.len() as u64,
             ties: self.found.iter().filter(is_tied).count() as u64,
             rejected: self.rejected,

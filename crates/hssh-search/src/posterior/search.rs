@@ -186,8 +186,9 @@ pub(crate) struct Running<'a> {
     pub(crate) rejected: u64,
     /// Layouts found by least squares.
     pub(crate) solved: u64,
-    /// The least factor by which χ² rose of what the linear estimate promised.
-    pub(crate) least_factor: f64,
+    /// By what factors χ² rose of what the linear estimate promised, where it rose less, each with the bound of the
+    /// hypothesis.
+    pub(crate) factors: Vec<(f64, f64)>,
     /// How many travels the first hypothesis explains that has no computable layout, and why it has none.
     pub(crate) unsolvable: Option<(usize, SolveError)>,
     /// What a map may cost and still matter.
@@ -205,7 +206,7 @@ impl<'a> Running<'a> {
             found: Vec::new(),
             rejected: 0,
             solved: 0,
-            least_factor: 1.0,
+            factors: Vec::new(),
             unsolvable: None,
             reach: f64::INFINITY,
             goal,
@@ -313,7 +314,8 @@ impl<'a> Running<'a> {
     fn settle(&mut self, leaf: &mut Leaf) {
         self.solved += 1;
         match self.grower.settle(leaf, &mut self.cursor, &self.tree) {
-            Ok(factor) => self.least_factor = self.least_factor.min(factor),
+            Ok(factor) if factor < 1.0 => self.factors.push((leaf.bound, factor)),
+            Ok(_) => {}
             Err(problem) => {
                 self.unsolvable.get_or_insert((leaf.depth, problem));
                 (leaf.bound, leaf.turn) = (f64::INFINITY, f64::INFINITY);
