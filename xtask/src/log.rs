@@ -137,11 +137,14 @@ fn mapped(
     Ok(text)
 }
 
+/// Where the places of a map are, and where the robot was in it.
+type Placed = (Placement, Vec<Position>);
+
 fn placed(
     mapper: &Mapper,
     map: &RankedMap,
     exploration: &Exploration,
-) -> Result<Option<(Placement, Vec<Position>)>, Box<dyn Error>> {
+) -> Result<Option<Placed>, Box<dyn Error>> {
     let positions = mapper.visits(map.node);
     Ok(place_by_odometry(exploration, &positions)?.map(|placement| (placement, positions)))
 }

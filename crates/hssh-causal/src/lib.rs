@@ -53,6 +53,7 @@ mod bearings;
 pub mod control;
 mod exploration;
 mod format;
+pub mod schema;
 
 pub use bearings::BearingError;
 pub use exploration::{

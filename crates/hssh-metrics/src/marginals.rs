@@ -123,7 +123,6 @@ impl Marginals {
     ///
     /// # Panics
     /// If the graph has no such pose.
-    #[must_use]
     pub fn new_constraint(
         &self,
         from: PoseId,

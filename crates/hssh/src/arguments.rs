@@ -38,6 +38,8 @@ pub(crate) enum Command {
     Stars(StarsOptions),
     /// Make an exploration from a robot's laser log: find the places it visited, and their stars.
     Explore(ExploreOptions),
+    /// Drive a simulated robot through a grid map, and write its laser log.
+    Simulate(SimulateOptions),
 }
 
 #[derive(Debug, Args)]
@@ -92,6 +94,43 @@ pub(crate) struct ExploreOptions {
     /// Write the local map of each visit into this folder, as PNG, and as SVG with gateways and star.
     #[arg(long, value_name = "FOLDER")]
     pub(crate) debug_dir: Option<PathBuf>,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct SimulateOptions {
+    /// The map: the YAML file of ROS `map_server`.
+    pub(crate) map: Option<PathBuf>,
+    /// Instead of a map, one of the floors that come with the program, such as `figure-eight`.
+    #[arg(long, value_name = "NAME", conflicts_with = "map")]
+    pub(crate) floor: Option<String>,
+    /// Where to write the log, as CARMEN text; `hssh explore` reads it.
+    #[arg(short, long, value_name = "FILE")]
+    pub(crate) output: PathBuf,
+    /// Another seed is another drive.
+    #[arg(long, value_name = "N", default_value_t = 1)]
+    pub(crate) seed: u64,
+    /// How many travels from place to place to make at most.
+    #[arg(long, value_name = "N", default_value_t = 40)]
+    pub(crate) travels: usize,
+    /// All errors of laser and wheels, in parts of their usual size.
+    #[arg(long, value_name = "FACTOR", default_value_t = 1.0, value_parser = length)]
+    pub(crate) noise: f64,
+    /// Where to start, in metres in the frame of the map, such as `--start=-1.5,20`; in a place if not given.
+    #[arg(long, value_name = "X,Y", value_parser = point, allow_hyphen_values = true)]
+    pub(crate) start: Option<[f64; 2]>,
+    /// Visit these places in turn, by the numbers that `hssh stars` gives them, such as `--visit 0,4,1`; if not
+    /// given, every corridor is travelled once.
+    #[arg(long, value_name = "PLACES", value_delimiter = ',')]
+    pub(crate) visit: Vec<u32>,
+    /// Take any way at every place.
+    #[arg(long, conflicts_with = "visit")]
+    pub(crate) wander: bool,
+    /// Write the truth as JSON: the map's places, and where the robot centered itself.
+    #[arg(long, value_name = "FILE")]
+    pub(crate) truth: Option<PathBuf>,
+    /// Draw the map with the true way and the way that odometry tells.
+    #[arg(long, value_name = "FILE")]
+    pub(crate) svg: Option<PathBuf>,
 }
 
 #[derive(Debug, Args)]

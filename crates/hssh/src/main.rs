@@ -27,6 +27,7 @@ fn main() -> ExitCode {
         Command::Graph(options) => command::graph::run(&options),
         Command::Stars(options) => command::stars::run(&options),
         Command::Explore(options) => command::explore::run(&options),
+        Command::Simulate(options) => command::simulate::run(&options),
     };
     match done {
         Ok(status) => status.into(),

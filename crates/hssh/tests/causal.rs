@@ -1,4 +1,5 @@
 //! `hssh check --schemas`: an exploration at the causal level, as text, JSON and DOT.
+#![allow(clippy::unwrap_used, reason = "in tests a failed unwrap is the failed assertion")]
 
 use std::path::PathBuf;
 use std::process::{Command, Output};

@@ -1,4 +1,5 @@
 //! `hssh stars` on a small floor: what it prints, draws and refuses.
+#![allow(clippy::unwrap_used, reason = "in tests a failed unwrap is the failed assertion")]
 
 use std::path::PathBuf;
 use std::process::{Command, Output};

@@ -53,8 +53,11 @@ fn lowest(file: &GraphFile) -> Result<f64, Box<dyn Error>> {
     Ok(from_file.min(solve_from_anywhere(&file.graph, &Options::default())?.chi2))
 }
 
+/// Poses to begin at, and where they come from.
+type Start = (&'static str, Vec<Pose>);
+
 /// The poses that a graph may be solved from; the file's only if it has all.
-fn starts(file: &GraphFile) -> Result<Vec<(&'static str, Vec<Pose>)>, Box<dyn Error>> {
+fn starts(file: &GraphFile) -> Result<Vec<Start>, Box<dyn Error>> {
     let mut starts = Vec::new();
     if file.unplaced.is_empty() {
         starts.push(("file", file.graph.poses().to_vec()));

@@ -24,21 +24,25 @@ pub struct Automaton {
     transitions: BTreeMap<(StateId, Action), StateId>,
 }
 
-/// Why moments cannot be the same distinctive state.
-#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+/// Why moments cannot be the same distinctive state. Numbers count from 0, the text counts from 1.
+#[derive(Clone, Copy, PartialEq, Eq, Debug, thiserror::Error)]
 pub enum Refutation {
     /// Two moments that were assumed to be the same state have different views. The moments, in order.
+    #[error("moments {} and {} have different views", .0 + 1, .1 + 1)]
     Views(usize, usize),
     /// Two schemas do the same action in what would be the same state, but what they lead to differs. The
     /// schemas, in order.
+    #[error(
+        "schemas {} and {} do the same in what would be one state, but lead to different views", .0 + 1, .1 + 1
+    )]
     Schemas(usize, usize),
 }
 
 impl Automaton {
     /// The automaton in which moments with equal keys are the same state, unless the trace refutes that.
     ///
-    /// "Being back at an earlier state predicts what the same actions lead to": moments that follow by the
-    /// same action are joined as well, so that the automaton may have fewer states than there are keys.
+    /// Being back in an earlier state predicts what the same actions lead to: moments that follow by the same
+    /// action are joined as well, so that the automaton may have fewer states than there are keys.
     ///
     /// # Errors
     /// The first contradiction met: states joined in order, their consequences after each.
@@ -107,8 +111,12 @@ struct Merging<'a> {
 
 impl<'a> Merging<'a> {
     fn new(trace: &'a Trace) -> Self {
-        let mut done: Vec<BTreeMap<Action, usize>> =
-            trace.steps().iter().enumerate().map(|(schema, step)| BTreeMap::from([(step.action, schema)])).collect();
+        let mut done: Vec<BTreeMap<Action, usize>> = trace
+            .steps()
+            .iter()
+            .enumerate()
+            .map(|(schema, step)| BTreeMap::from([(step.action, schema)]))
+            .collect();
         done.push(BTreeMap::new());
         Merging { trace, parent: (0..done.len()).collect(), done }
     }
@@ -133,7 +141,8 @@ impl<'a> Merging<'a> {
             if self.trace.view(one) != self.trace.view(other) {
                 return Err(reason);
             }
-            let (kept, gone) = if self.done[one].len() < self.done[other].len() { (other, one) } else { (one, other) };
+            let (kept, gone) =
+                if self.done[one].len() < self.done[other].len() { (other, one) } else { (one, other) };
             self.parent[gone] = kept;
             for (action, schema) in std::mem::take(&mut self.done[gone]) {
                 let known = *self.done[kept].entry(action).or_insert(schema);

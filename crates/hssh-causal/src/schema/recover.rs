@@ -1,103 +1,90 @@
-//! From schemas back to stars: what turning at a place tells of its local paths and gateways.
-
-use std::f64::consts::TAU;
+//! From schemas back to an exploration, where every view shows a whole place (section 2.3).
 
 use hssh_topology::{Olp, Star};
 
 use super::{Action, Trace, View};
-use crate::{Exploration, NamedStar, StarType, Travel};
+use crate::{Exploration, ExplorationError, NamedStar, StarType, Travel};
 
-/// What one stay at a place, from arrival to departure, tells of the place's star.
+/// Why a trace does not tell an exploration.
+#[derive(Clone, PartialEq, Debug, thiserror::Error)]
+pub enum RecoverError {
+    /// A view shows only what is ahead.
+    #[error(
+        "the view at moment {} shows only what is ahead: a star is told by views of whole places, else see what `stays` says", .0 + 1
+    )]
+    NoStar(usize),
+    /// A turn led to a view that the star seen on arrival does not have there.
+    #[error(
+        "schema {}: after `{action}` the place looks like `{seen}`, but by the star seen on arrival it should be `{expected}`",
+        schema + 1
+    )]
+    Turn {
+        /// The schema, counted from 0.
+        schema: usize,
+        /// The turn.
+        action: Action,
+        /// The view after it.
+        seen: String,
+        /// The view that the star has there.
+        expected: String,
+    },
+    /// A travel leaves or enters by a closed end.
+    #[error(transparent)]
+    Exploration(#[from] ExplorationError),
+}
+
+/// The exploration that a trace of views of whole places comes from.
 ///
-/// Positions count oriented local paths clockwise from the one faced on arrival. What is seen after turning
-/// around has no position unless the circle is known; it counts only as what lies behind.
-#[derive(Clone, PartialEq, Debug)]
-pub struct Stay {
-    /// The moment of arrival.
-    pub arrival: usize,
-    /// The moment of departure: the last one of the stay.
-    pub departure: usize,
-    /// The views by position, up to the farthest one faced; `None` where a turn went past.
-    pub views: Vec<Option<View>>,
-    /// Positions at which the robot turned around, with what it saw behind.
-    pub behind: Vec<(u32, View)>,
-    /// How many oriented local paths there are, if turns of measured angles came back to where they began.
-    pub full_circle: Option<u32>,
-}
-
-impl Stay {
-    /// How many oriented local paths the place may have, up to a greatest number.
-    ///
-    /// An even number, as every local path has two ends, and one that the views admit: "every model that is
-    /// equivalent to the correct one up to a modulo operation on the circular sequence of views is
-    /// legitimate" (section 2.3.3). With a measured full circle it is one number.
-    #[must_use]
-    pub fn degrees(&self, most: u32) -> Vec<u32> {
-        let agrees = |degree: u32| {
-            let mut circle: Vec<Option<&View>> = vec![None; degree as usize];
-            self.views.iter().enumerate().all(|(position, view)| {
-                let known = &mut circle[position % degree as usize];
-                let agrees = known.is_none() || view.is_none() || *known == view.as_ref();
-                *known = known.or(view.as_ref());
-                agrees
-            })
-        };
-        let even = (2..=most).step_by(2);
-        even.filter(|&degree| self.full_circle.is_none_or(|full| full == degree) && agrees(degree)).collect()
-    }
-}
-
-/// What the stays of a trace tell, in order.
-#[must_use]
-pub fn stays(trace: &Trace) -> Vec<Stay> {
-    let mut stays = Vec::new();
-    let mut turning = Circling::at(0, trace);
+/// It is the same up to isomorphism of each star: a star type is what is seen on arrival, ends counted
+/// from the one ahead. Which star types a file had told apart by nothing but name, bearings and odometry are
+/// not in the views, and therefore lost; so are turns after the last travel.
+///
+/// # Errors
+/// If a view is not of a whole place, if a turn contradicts the star seen on arrival, or if the robot used
+/// a closed end.
+pub fn exploration(trace: &Trace) -> Result<Exploration, RecoverError> {
+    let mut stars: Vec<&Star> = Vec::new();
+    let mut type_of = |star| {
+        let known = stars.iter().position(|&other| other == star);
+        StarType(known.unwrap_or_else(|| {
+            stars.push(star);
+            stars.len() - 1
+        }) as u32)
+    };
+    let mut here = star_at(trace, 0)?;
+    let mut facing = Olp(0);
+    let start = type_of(here);
+    let mut travels = Vec::new();
     for (schema, step) in trace.steps().iter().enumerate() {
-        match step.action {
-            Action::Travel => stays.push(std::mem::replace(&mut turning, Circling::at(schema + 1, trace)).stay),
-            Action::Turn { clockwise } => turning.turn(clockwise, step.change.rotation, &step.view),
-            Action::TurnAround => turning.turn_around(&step.view),
+        let after = star_at(trace, schema + 1)?;
+        if step.action.is_travel() {
+            // The robot looks the way it came in.
+            let entry = after.opposite(Olp(0));
+            travels.push(Travel { exit: facing, entry, star: type_of(after), odometry: None });
+            (here, facing) = (after, Olp(0));
+            continue;
         }
-        turning.stay.departure = schema + 1;
+        facing = match step.action {
+            Action::Turn { clockwise } => Olp((facing.0 + clockwise) % here.degree()),
+            _ => here.opposite(facing),
+        };
+        let expected = View::of(here, facing, super::Sight::Place);
+        if expected != step.view {
+            let (seen, expected) = (step.view.to_string(), expected.to_string());
+            return Err(RecoverError::Turn { schema, action: step.action, seen, expected });
+        }
     }
-    stays.push(turning.stay);
-    stays
+    let star_types = stars.iter().enumerate().map(|(index, &star)| NamedStar {
+        name: format!("S{}", index + 1),
+        bearings: vec![None; star.ends().len()],
+        star: star.clone(),
+    });
+    Ok(Exploration::new(star_types.collect(), start, travels)?)
 }
 
-/// A stay under way.
-struct Circling {
-    stay: Stay,
-    position: u32,
-    /// The robot looks the other way: what it sees now has no position.
-    is_reversed: bool,
-    /// Radians turned since arrival, as long as all were measured.
-    turned: Option<f64>,
-}
-
-impl Circling {
-    fn at(moment: usize, trace: &Trace) -> Self {
-        let views = vec![Some(trace.view(moment).clone())];
-        let stay = Stay { arrival: moment, departure: moment, views, behind: Vec::new(), full_circle: None };
-        Circling { stay, position: 0, is_reversed: false, turned: Some(0.0) }
-    }
-
-    fn turn(&mut self, clockwise: u32, rotation: Option<f64>, view: &View) {
-        if self.is_reversed {
-            // Where that is, only another turn around can tell: back there, all is as before.
-            (self.is_reversed, self.turned, self.position) = (true, None, self.position);
-            return;
-        }
-        self.position += clockwise;
-        let needed = self.position as usize + 1;
-        if self.stay.views.len() < needed {
-            self.stay.views.resize(needed, None);
-        }
-        self.stay.views[self.position as usize] = Some(view.clone());
-        self.turned = self.turned.zip(rotation).map(|(turned, rotation)| turned + rotation);
-        let _ = TAU;
-    }
-
-    fn turn_around(&mut self, view: &View) {
-        let _ = view;
+fn star_at(trace: &Trace, moment: usize) -> Result<&Star, RecoverError> {
+    match trace.view(moment) {
+        View::Place(star) => Ok(star),
+        View::Ahead { .. } => Err(RecoverError::NoStar(moment)),
     }
 }

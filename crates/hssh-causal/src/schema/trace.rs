@@ -67,7 +67,8 @@ impl Trace {
     #[must_use]
     pub fn of(exploration: &Exploration, sight: Sight, turning: Turning) -> Option<Self> {
         let exit = exploration.travels().first()?.exit;
-        let mut robot = Robot { exploration, sight, here: exploration.start(), facing: exit, steps: Vec::new() };
+        let mut robot =
+            Robot { exploration, sight, here: exploration.start(), facing: exit, steps: Vec::new() };
         let first = View::of(robot.star(), exit, sight);
         robot.look_around(turning);
         for (index, travel) in exploration.travels().iter().enumerate() {

@@ -48,12 +48,12 @@ impl View {
         }
     }
 
-    /// Whether the faced oriented local path can be travelled.
+    /// What is ahead: whether the faced oriented local path can be travelled, and its richer attribute.
     #[must_use]
-    pub fn is_travelable(&self) -> bool {
+    pub fn ahead(&self) -> (Travel, Option<String>) {
         match self {
-            View::Place(star) => star.is_travelable(Olp(0)),
-            View::Ahead { travel, .. } => *travel == Travel::Travelable,
+            View::Place(star) => (star.ends()[0].travel, star.ends()[0].label.clone()),
+            View::Ahead { travel, label } => (*travel, label.clone()),
         }
     }
 }

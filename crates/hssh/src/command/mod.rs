@@ -5,4 +5,5 @@ pub(crate) mod explain;
 pub(crate) mod explore;
 pub(crate) mod graph;
 pub(crate) mod map;
+pub(crate) mod simulate;
 pub(crate) mod stars;
