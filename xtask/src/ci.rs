@@ -5,7 +5,7 @@ use std::time::Instant;
 
 use xshell::{Shell, cmd};
 
-use crate::{experiment, flags, root, tidy};
+use crate::{experiment, flags, robot, root, tidy};
 
 /// `cargo xtask ci`.
 pub(crate) fn run() -> Result<(), Box<dyn Error>> {
@@ -19,6 +19,7 @@ pub(crate) fn run() -> Result<(), Box<dyn Error>> {
         Ok(cmd!(shell, "cargo doc --workspace --no-deps").env("RUSTDOCFLAGS", "-Dwarnings").run()?)
     })?;
     step("experiments", experiments)?;
+    step("robot", || robot::run(&flags::Robot { seeds: None, threads: Some(0), check: true }))?;
     println!("== everything passed");
     Ok(())
 }

@@ -83,6 +83,15 @@ xflags::xflags! {
             /// The folder that contains `logs/` and `gridmap/`.
             required data: PathBuf
         }
+        /// Drives a simulated robot through six floors: control level, survey and map against the truth.
+        cmd robot {
+            /// Drives of each row; 3 if not given.
+            optional --seeds count: usize
+            /// Drives at once, 0 for one per core; 1 if not given.
+            optional --threads count: usize
+            /// Only small floors and usual noise, one drive each; fail if one goes wrong.
+            optional --check
+        }
         /// Checks what lints cannot: module sentences, file lengths, words, layers.
         cmd tidy {}
         /// Everything that has to pass before a change is taken.

@@ -15,6 +15,7 @@ mod log;
 mod noisy;
 mod peers;
 mod pose_graphs;
+mod robot;
 mod root;
 mod table;
 mod tidy;
@@ -49,6 +50,7 @@ fn run(command: XtaskCmd) -> Result<(), Box<dyn Error>> {
         }
         XtaskCmd::Grids(flags) => grids::run(&flags),
         XtaskCmd::Log(flags) => log::run(&flags.data),
+        XtaskCmd::Robot(flags) => robot::run(&flags),
         XtaskCmd::Tidy(_) => tidy::run(),
         XtaskCmd::Ci(_) => ci::run(),
     }

@@ -71,7 +71,8 @@ fn collect(folder: &Path, files: &mut Vec<PathBuf>) -> Result<(), Box<dyn Error>
             ["target", "corpus", "artifacts", "__pycache__"].iter().any(|made| path.ends_with(made));
         if path.is_dir() && !is_made {
             collect(&path, files)?;
-        } else if path.is_file() && path.extension().is_none_or(|extension| extension != "lock") {
+        } else if path.is_file() && path.extension().is_none_or(|ending| ending != "lock" && ending != "png")
+        {
             files.push(path);
         }
     }

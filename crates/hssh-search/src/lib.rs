@@ -4,6 +4,8 @@
 //! breadth-first, best-first, or best-first with a proof that nothing better exists;
 //! [`MapperBuilder::count`] goes through the same tree depth-first in constant memory. All of them expand their frontier on any
 //! number of threads with the same result in the same order.
+//!
+//! [`PosteriorSearch`] takes a whole exploration with odometry, and finds its most probable maps with a proof (chapter 4).
 
 mod best_first;
 mod branching;

@@ -7,6 +7,8 @@ pub use hssh_causal as causal;
 #[doc(inline)]
 pub use hssh_draw as draw;
 #[doc(inline)]
+pub use hssh_local as local;
+#[doc(inline)]
 pub use hssh_metrics as metrics;
 #[doc(inline)]
 pub use hssh_search as search;

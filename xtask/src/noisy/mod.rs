@@ -9,6 +9,8 @@ use std::error::Error;
 
 use crate::flags;
 
+pub(crate) use trial::on_threads;
+
 /// The experiments of this kind, and what runs them.
 const EXPERIMENTS: [(&str, Run); 2] = [("chapter-4", chapter4::run), ("scale", scale::run)];
 

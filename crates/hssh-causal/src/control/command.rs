@@ -15,9 +15,13 @@ impl Command {
     /// Stand still.
     pub const REST: Command = Command { speed: 0.0, turn: 0.0 };
 
-    /// Turn on the spot toward a bearing.
+    /// Turn on the spot toward a bearing; always to the left toward what is behind, so that nothing behind
+    /// makes the robot waver.
     pub(super) fn face(bearing: f64, handling: &Handling) -> Command {
-        Command { speed: 0.0, turn: (2.0 * bearing).clamp(-handling.turn, handling.turn) }
+        /// From this bearing on, in radians, something is behind.
+        const BEHIND: f64 = 2.6;
+        let turn = if bearing.abs() > BEHIND { handling.turn } else { 2.0 * bearing };
+        Command { speed: 0.0, turn: turn.clamp(-handling.turn, handling.turn) }
     }
 
     /// Drive to a point on a circle that the present heading touches; toward what is far to the side turn on

@@ -30,8 +30,8 @@ impl Default for Handling {
             widest_curve: 0.6,
             look_ahead: 0.8,
             margin: 0.1,
-            climb: 2.0,
-            centered: 0.08,
+            climb: 3.0,
+            centered: 0.1,
         }
     }
 }

@@ -2,33 +2,49 @@
 
 use std::f64::consts::TAU;
 
+use super::view::View;
 use super::{Command, Handling, Percept};
 
 /// Directions that are tried from a point.
 const DIRECTIONS: u32 = 16;
-/// The first and the last length of a step, in metres.
-const STEPS: (f64, f64) = (0.4, 0.02);
+/// Metres between the points that are compared first, so that no bump of the measure is taken for its summit.
+const SURVEY_STEP: f64 = 0.2;
+/// The last length of a step, in metres.
+const LAST_STEP: f64 = 0.02;
 /// The least speed of an approach, metres per second.
 const CREEP: f64 = 0.05;
 
 /// Where the distinctiveness measure, the distance to the nearest obstacle, is greatest: there a robot is as
 /// far from one obstacle as from others on all sides. In the robot's frame.
 pub(super) fn summit(percept: &Percept, handling: &Handling) -> [f64; 2] {
-    let (mut at, mut height) = ([0.0, 0.0], percept.clearance_at([0.0, 0.0]));
-    let mut step = STEPS.0;
-    while step >= STEPS.1 {
-        let around = (0..DIRECTIONS).map(|k| {
-            let (sin, cos) = (TAU * f64::from(k) / f64::from(DIRECTIONS)).sin_cos();
-            [at[0] + step * cos, at[1] + step * sin]
-        });
-        let within = around.filter(|[x, y]| x.hypot(*y) <= handling.climb);
-        let heights = within.map(|point| (percept.clearance_at(point), point));
-        match heights.reduce(|best, other| if other.0 > best.0 { other } else { best }) {
-            Some((higher, point)) if higher > height => (at, height) = (point, higher),
-            _ => step /= 2.0,
+    let view = View::new(percept);
+    let circles = (1..=(handling.climb / SURVEY_STEP) as u32).map(|k| f64::from(k) * SURVEY_STEP);
+    let within_reach = circles.flat_map(|radius| around([0.0, 0.0], radius));
+    let (mut height, mut at) = highest(&view, std::iter::once([0.0, 0.0]).chain(within_reach));
+    let mut step = SURVEY_STEP / 2.0;
+    while step >= LAST_STEP {
+        let (higher, point) = highest(&view, around(at, step));
+        if higher > height {
+            (height, at) = (higher, point);
+        } else {
+            step /= 2.0;
         }
     }
     at
+}
+
+/// Points on a circle.
+fn around(center: [f64; 2], radius: f64) -> impl Iterator<Item = [f64; 2]> {
+    (0..DIRECTIONS).map(move |k| {
+        let (sin, cos) = (TAU * f64::from(k) / f64::from(DIRECTIONS)).sin_cos();
+        [center[0] + radius * cos, center[1] + radius * sin]
+    })
+}
+
+/// The first of the points with the greatest clearance, which comes first.
+fn highest(view: &View, points: impl Iterator<Item = [f64; 2]>) -> (f64, [f64; 2]) {
+    let heights = points.map(|point| (view.clearance_at(point), point));
+    heights.fold((0.0, [0.0, 0.0]), |best, other| if other.0 > best.0 { other } else { best })
 }
 
 /// Goes to the summit, and ever slower.
@@ -40,10 +56,5 @@ pub(super) fn climb(percept: &Percept, handling: &Handling) -> Command {
     }
     let room = percept.ahead(handling.radius + handling.margin) - handling.radius - handling.margin;
     let speed = handling.speed.min(distance).min(room);
-    // What is close behind is reached backward.
-    if x < 0.0 && distance < 2.0 * handling.radius {
-        let back = Command::toward([-x, -y], handling.speed.min(distance), handling);
-        return Command { speed: -back.speed, turn: back.turn };
-    }
     Command::toward([x, y], speed.max(CREEP), handling)
 }

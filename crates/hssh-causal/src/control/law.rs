@@ -1,7 +1,7 @@
 //! Control laws: what they do, where they apply and where they end (section 2.1.1).
 
 use super::hill_climbing::{climb, summit};
-use super::trajectory::{follow_midline, leave};
+use super::trajectory::{follow_midline, is_blocked, leave};
 use super::{Command, Exit, Handling, Percept};
 
 /// A control law.
@@ -43,7 +43,7 @@ impl ControlLaw {
         match *self {
             ControlLaw::Leave { neighborhood, gateway } => exit(percept, neighborhood, gateway).is_none(),
             ControlLaw::FollowMidline { .. } => {
-                percept.neighborhood.is_some() || percept.ahead(handling.radius) <= 2.0 * handling.radius
+                percept.neighborhood.is_some() || is_blocked(percept, handling)
             }
             ControlLaw::HillClimb => {
                 let [x, y] = summit(percept, handling);

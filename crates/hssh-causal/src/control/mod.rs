@@ -30,6 +30,7 @@ mod percept;
 #[cfg(test)]
 mod tests;
 mod trajectory;
+mod view;
 
 pub use action::{Action, approach, travel};
 pub use command::Command;

@@ -35,17 +35,6 @@ pub struct Exit {
 }
 
 impl Percept {
-    /// How far a disc around a point in sight reaches before it meets something in sight; nothing of what
-    /// is in sight meets a disc around a point that is not, so there it is 0.
-    #[must_use]
-    pub fn clearance_at(&self, point: [f64; 2]) -> f64 {
-        if !self.is_in_sight(point) {
-            return 0.0;
-        }
-        let squared = self.obstacles().map(|[x, y]| (x - point[0]).powi(2) + (y - point[1]).powi(2));
-        squared.fold(f64::INFINITY, f64::min).sqrt()
-    }
-
     /// The least distance to anything in the left half of the plane, not counting what is nearly ahead or
     /// behind.
     #[must_use]
@@ -82,17 +71,12 @@ impl Percept {
         if turned > PI { turned - TAU } else { turned }
     }
 
-    fn obstacles(&self) -> impl Iterator<Item = [f64; 2]> + '_ {
+    /// The points that are in the way, counterclockwise.
+    pub(super) fn obstacles(&self) -> impl Iterator<Item = [f64; 2]> + '_ {
         let in_sight = self.ranges.iter().enumerate().filter(|(_, range)| range.is_finite());
         in_sight.map(|(index, range)| {
             let (sin, cos) = self.bearing(index).sin_cos();
             [range * cos, range * sin]
         })
-    }
-
-    fn is_in_sight(&self, [x, y]: [f64; 2]) -> bool {
-        let steps = self.ranges.len() as f64;
-        let nearest = (y.atan2(x).rem_euclid(TAU) / TAU * steps).round() as usize;
-        self.ranges.get(nearest % self.ranges.len().max(1)).is_some_and(|&range| range >= x.hypot(y))
     }
 }

@@ -22,7 +22,7 @@ fn corridor(y: f64, heading: f64, end: f64) -> Percept {
 fn crossing(x: f64, y: f64, heading: f64) -> Percept {
     let range = |index: u32| {
         let (sin, cos) = (heading + TAU * f64::from(index) / 360.0).sin_cos();
-        let mut steps = (1..2000).map(|step| 0.01 * f64::from(step));
+        let mut steps = (1..1000).map(|step| 0.02 * f64::from(step));
         let is_free = |r: f64| (x + r * cos).abs() < 1.0 || (y + r * sin).abs() < 1.0;
         steps.find(|&r| !is_free(r)).unwrap_or(f64::INFINITY)
     };
@@ -57,6 +57,8 @@ fn moved([x, y, heading]: [f64; 3], command: Command) -> [f64; 3] {
 }
 
 proptest! {
+    #![proptest_config(ProptestConfig::with_cases(48))]
+
     #[test]
     fn the_midline_is_reached_and_kept(y in -0.6_f64..0.6, heading in -1.2_f64..1.2) {
         let handling = Handling::default();

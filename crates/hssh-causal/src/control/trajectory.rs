@@ -1,5 +1,6 @@
 //! Trajectory-following: along the midline of a corridor, and out of a place by a gateway (section 2.1.1).
 
+use super::view::View;
 use super::{Command, Exit, Handling, Percept};
 
 /// The directions that are compared, on either side.
@@ -25,16 +26,27 @@ pub(super) fn leave(percept: &Percept, gateway: &Exit, handling: &Handling) -> C
     along(percept, y.atan2(x), 20_f64.to_radians(), gateway.width, handling)
 }
 
+/// Whether there is no room ahead, sixty degrees to either side.
+pub(super) fn is_blocked(percept: &Percept, handling: &Handling) -> bool {
+    let view = View::new(percept);
+    let room = |step: i32| {
+        let (sin, cos) = (f64::from(step) * 5_f64.to_radians()).sin_cos();
+        view.clearance_at([handling.look_ahead * cos, handling.look_ahead * sin])
+    };
+    (-12..=12).all(|step| room(step) < handling.radius + handling.margin)
+}
+
 /// Goes where, about as far ahead as the robot looks, there is most room, `arc` to either side of a bearing.
 fn along(percept: &Percept, bearing: f64, arc: f64, width: f64, handling: &Handling) -> Command {
     if bearing.abs() > handling.widest_curve {
         return Command::face(bearing, handling);
     }
+    let view = View::new(percept);
     let enough = ENOUGH_ROOM * width / 2.0;
     let point =
         |direction: f64| [handling.look_ahead * direction.cos(), handling.look_ahead * direction.sin()];
     let merit = |direction: f64| {
-        percept.clearance_at(point(direction)).min(enough) - TURNING * (direction - bearing).abs()
+        view.clearance_at(point(direction)).min(enough) - TURNING * (direction - bearing).abs()
     };
     let directions = (-DIRECTIONS..=DIRECTIONS)
         .map(|step| bearing + arc * f64::from(step) / f64::from(DIRECTIONS))

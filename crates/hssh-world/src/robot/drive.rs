@@ -1,0 +1,176 @@
+//! Drives: what became of a robot in a grid, with its log and the truth beside it.
+
+use std::fmt;
+
+use hssh_causal::control::ControlLaw;
+use hssh_local::{OccupancyGrid, PlaceGraph, PlaceGraphError, PlaceNumber};
+use hssh_metrics::Pose;
+use hssh_topology::Olp;
+
+use super::body::touches;
+use super::options::RobotOptions;
+use super::run::Run;
+use super::strategy::Strategy;
+
+/// A drive.
+#[derive(Clone, Debug)]
+pub struct Drive {
+    /// The log, from command to command.
+    pub moments: Vec<Moment>,
+    /// Where the robot centered itself, in order.
+    pub stops: Vec<Stop>,
+    /// How it ended.
+    pub ending: Ending,
+    /// The true places: those of the whole map.
+    pub graph: PlaceGraph,
+    /// From this range on nothing came back, in metres.
+    pub max_range: f64,
+}
+
+/// A line of the log with the truth.
+#[derive(Clone, PartialEq, Debug)]
+pub struct Moment {
+    /// Seconds since the start.
+    pub time: f64,
+    /// Where the robot was, in the frame of the grid.
+    pub pose: Pose,
+    /// Where its odometry believed it was; it starts at the origin.
+    pub odometry: Pose,
+    /// What its laser saw, if it was logged: from right to left, infinite where nothing came back.
+    pub scan: Option<Vec<f64>>,
+}
+
+/// A distinctive state: where hill-climbing ended.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub struct Stop {
+    /// The place whose center is nearest, if the robot is within its clearance.
+    pub place: Option<PlaceNumber>,
+    /// The place that it meant to reach; none where it started.
+    pub meant: Option<PlaceNumber>,
+    /// Where it stopped, in the frame of the grid.
+    pub pose: Pose,
+    /// Metres from the place's center.
+    pub off_center: Option<f64>,
+    /// By which end of the place's star it went on; none at the last stop.
+    pub exit: Option<Olp>,
+    /// The moment of the log when it was there.
+    pub moment: usize,
+}
+
+/// How a drive ended.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub enum Ending {
+    /// All that was asked for was done.
+    Done,
+    /// Nobody knows a way on: the robot is at none of the map's places, or not next to the place asked for.
+    NoWayOn,
+    /// A control law did not apply, or did not end.
+    Lost(ControlLaw),
+    /// The robot would have run into something.
+    Collision,
+}
+
+/// Why a robot cannot drive at all.
+#[derive(Clone, Copy, PartialEq, Debug, thiserror::Error)]
+pub enum DriveError {
+    /// No places to go to.
+    #[error(transparent)]
+    Map(#[from] PlaceGraphError),
+    /// Free space without places.
+    #[error("the map has free space but no place: nowhere is there a crossing, a corner or a dead end")]
+    NoPlaces,
+    /// The start is not on the map.
+    #[error("the start ({}, {}) is not on the map, which reaches from ({}, {}) to ({}, {})", .at[0], .at[1], .low[0], .low[1], .high[0], .high[1])]
+    StartOutside {
+        /// The start in metres.
+        at: [f64; 2],
+        /// The map's lower left corner.
+        low: [f64; 2],
+        /// The map's upper right corner.
+        high: [f64; 2],
+    },
+    /// The start is in a wall or too near to one.
+    #[error("at the start ({}, {}) there is no room for a robot of {radius} m radius: it is in a wall or unknown space, or too near; a place with room is ({:.2}, {:.2})", .at[0], .at[1], .room[0], .room[1])]
+    StartBlocked {
+        /// The start in metres.
+        at: [f64; 2],
+        /// The robot's radius.
+        radius: f64,
+        /// Where there is room: the center of the nearest place.
+        room: [f64; 2],
+    },
+    /// A place of the list does not exist.
+    #[error("there is no place {asked}: the map has places 0 to {last}", asked = .asked.0)]
+    NoSuchPlace {
+        /// The place asked for.
+        asked: PlaceNumber,
+        /// The last one there is.
+        last: usize,
+    },
+}
+
+impl fmt::Display for Ending {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Ending::Done => write!(f, "everything that was asked for was done"),
+            Ending::NoWayOn => write!(f, "no way on is known from where the robot centered itself"),
+            Ending::Lost(ControlLaw::Leave { .. }) => write!(f, "the robot did not get out of a place"),
+            Ending::Lost(ControlLaw::FollowMidline { .. }) => {
+                write!(f, "the robot found no next place along a corridor")
+            }
+            Ending::Lost(ControlLaw::HillClimb) => write!(f, "the robot found no place to center in"),
+            Ending::Collision => write!(f, "the robot would have run into something"),
+        }
+    }
+}
+
+/// Drives a robot through a grid, from `start` (metres; the center of the first place if not given) until the
+/// strategy is done or the number of travels is made. The same arguments give the same drive.
+///
+/// At its start and at its end the robot turns around once, so that the first and the last place are seen whole.
+///
+/// # Errors
+/// If the map has no places, there is no room at the start, or the strategy names a place that is not there.
+pub fn drive(
+    grid: &OccupancyGrid,
+    start: Option<[f64; 2]>,
+    strategy: Strategy,
+    options: &RobotOptions,
+    seed: u64,
+) -> Result<Drive, DriveError> {
+    let graph = PlaceGraph::new(grid, &options.places)?;
+    let first = graph.places.first().ok_or(DriveError::NoPlaces)?;
+    if let Strategy::Visit(list) = &strategy
+        && let Some(&asked) = list.iter().find(|number| number.index() >= graph.places.len())
+    {
+        return Err(DriveError::NoSuchPlace { asked, last: graph.places.len() - 1 });
+    }
+    let start = start.unwrap_or(first.center);
+    check_start(grid, &graph, start, options)?;
+    let mut run = Run::new(grid, &graph, start, options, seed);
+    let ending = run.travel(strategy).err().unwrap_or(Ending::Done);
+    let (moments, stops) = run.into_log();
+    Ok(Drive { moments, stops, ending, graph, max_range: options.laser.max_range })
+}
+
+/// Whether the robot fits where it starts.
+fn check_start(
+    grid: &OccupancyGrid,
+    graph: &PlaceGraph,
+    at: [f64; 2],
+    options: &RobotOptions,
+) -> Result<(), DriveError> {
+    let lattice = grid.lattice();
+    if lattice.cell_at(at).is_none() {
+        let high = lattice.point([f64::from(lattice.width()), f64::from(lattice.height())]);
+        return Err(DriveError::StartOutside { at, low: lattice.origin(), high });
+    }
+    let radius = options.handling.radius;
+    if touches(grid, at, radius) {
+        let away = |center: [f64; 2]| (center[0] - at[0]).hypot(center[1] - at[1]);
+        let centers = graph.places.iter().map(|place| place.center);
+        let room = centers.min_by(|a, b| away(*a).total_cmp(&away(*b))).unwrap_or(at);
+        return Err(DriveError::StartBlocked { at, radius, room });
+    }
+    Ok(())
+}

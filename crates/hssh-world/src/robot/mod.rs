@@ -1,0 +1,35 @@
+//! A simulated robot: it drives through a grid map by the control laws of section 2.1.1 and keeps a log.
+//!
+//! The robot is a disc with two wheels and a laser. What it does follows from what it perceives: ranges all
+//! around, noisy as the laser's, and the gateways of the place-neighborhood that it is in, read from the grid
+//! around it as from a local perceptual model. Only which gateway it takes is decided by somebody who knows the
+//! whole map: a [`Strategy`]. The truth is kept beside the log: true poses, and at which places it centered.
+//!
+//! ```
+//! use hssh_world::robot::{RobotOptions, Strategy, drive};
+//! use hssh_world::{floor_plan, grid};
+//!
+//! let plan = floor_plan(&grid(2, 2, 12.0)?, 2.4, 0.1)?;
+//! let options = RobotOptions { travels: 4, ..RobotOptions::default() };
+//! let drive = drive(&plan, Some([0.0, 0.0]), Strategy::Cover, &options, 1)?;
+//! assert_eq!(drive.stops.len(), 5, "where it started, and four travels");
+//! assert!(drive.to_carmen().contains("\nFLASER 181 "));
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+
+mod body;
+mod carmen;
+mod drive;
+mod laser;
+mod odometer;
+mod options;
+mod outlook;
+mod run;
+mod strategy;
+
+pub use body::touches;
+pub use drive::{Drive, DriveError, Ending, Moment, Stop, drive};
+pub use laser::Laser;
+pub use odometer::Odometer;
+pub use options::RobotOptions;
+pub use strategy::Strategy;
