@@ -57,102 +57,75 @@ fn uniform(_: &Exploration) -> Option<PosteriorModel> {
     Some(PosteriorModel { metrical, prior: MapPrior::Flat })
 }
 
+/// The thesis's own (section 4.7.2).
+const INTEGRATED: Method = Method {
+    name: "integrated",
+    model: |_| Some(PosteriorModel::THESIS),
+    order: PosteriorOrder::BestFirst,
+    planar: true,
+    goal: Goal::ClosedMap,
+    expected: [5, 5, 5, 5, 5],
+};
+
+/// The program's default, under planarity.
+const EVIDENCE: Method = Method {
+    name: "evidence, corridors",
+    model: |exploration| evidence(exploration, MapPrior::Flat),
+    order: PROOF,
+    planar: true,
+    goal: Goal::AnyMap,
+    expected: [5, 5, 3, 0, 0],
+};
+
 const METHODS: [Method; 12] = [
     Method {
         name: "likelihood only",
         model: |_| Some(likelihood(MapPrior::Flat)),
-        order: PosteriorOrder::BestFirst,
-        planar: true,
         goal: Goal::AnyMap,
         expected: [0, 0, 0, 0, 0],
+        ..INTEGRATED
     },
     Method {
         name: "likelihood only, closed maps",
         model: |_| Some(likelihood(MapPrior::Flat)),
-        order: PosteriorOrder::BestFirst,
-        planar: true,
-        goal: Goal::ClosedMap,
         expected: [5, 5, 5, 5, 5],
+        ..INTEGRATED
     },
-    Method {
-        name: "integrated, not planar",
-        model: |_| Some(PosteriorModel::THESIS),
-        order: PosteriorOrder::BestFirst,
-        planar: false,
-        goal: Goal::ClosedMap,
-        expected: [5, 5, 5, 5, 5],
-    },
-    Method {
-        name: "integrated",
-        model: |_| Some(PosteriorModel::THESIS),
-        order: PosteriorOrder::BestFirst,
-        planar: true,
-        goal: Goal::ClosedMap,
-        expected: [5, 5, 5, 5, 5],
-    },
+    Method { name: "integrated, not planar", planar: false, expected: [5, 5, 5, 5, 5], ..INTEGRATED },
+    Method { name: "integrated", expected: [5, 5, 5, 5, 5], ..INTEGRATED },
     Method {
         name: "integrated, with proof",
         model: |_| Some(PosteriorModel::THESIS),
-        order: PROOF,
-        planar: true,
         goal: Goal::ClosedMap,
         expected: [5, 5, 5, 5, 5],
+        ..EVIDENCE
     },
     Method {
         name: "integrated, any map, proof",
         model: |_| Some(PosteriorModel::THESIS),
-        order: PROOF,
-        planar: true,
-        goal: Goal::AnyMap,
         expected: [0, 0, 0, 0, 0],
+        ..EVIDENCE
     },
-    Method {
-        name: "evidence, corridors",
-        model: |exploration| evidence(exploration, MapPrior::Flat),
-        order: PROOF,
-        planar: true,
-        goal: Goal::AnyMap,
-        expected: [5, 5, 3, 0, 0],
-    },
+    Method { name: "evidence, corridors", expected: [5, 5, 3, 0, 0], ..EVIDENCE },
     Method {
         name: "evidence, corridors, closed maps",
-        model: |exploration| evidence(exploration, MapPrior::Flat),
-        order: PROOF,
-        planar: true,
         goal: Goal::ClosedMap,
         expected: [5, 5, 5, 5, 5],
+        ..EVIDENCE
     },
-    Method {
-        name: "evidence, corridors, not planar",
-        model: |exploration| evidence(exploration, MapPrior::Flat),
-        order: PROOF,
-        planar: false,
-        goal: Goal::AnyMap,
-        expected: [5, 5, 3, 0, 0],
-    },
-    Method {
-        name: "evidence, uniform area",
-        model: uniform,
-        order: PROOF,
-        planar: true,
-        goal: Goal::AnyMap,
-        expected: [5, 5, 5, 5, 1],
-    },
+    Method { name: "evidence, corridors, not planar", planar: false, expected: [5, 5, 3, 0, 0], ..EVIDENCE },
+    Method { name: "evidence, uniform area", model: uniform, expected: [5, 5, 5, 5, 1], ..EVIDENCE },
     Method {
         name: "evidence, corridors, F",
         model: |exploration| evidence(exploration, F),
-        order: PROOF,
-        planar: true,
-        goal: Goal::AnyMap,
         expected: [5, 5, 4, 0, 0],
+        ..EVIDENCE
     },
     Method {
         name: "evidence, corridors, choices",
         model: |exploration| evidence(exploration, MapPrior::Choices),
-        order: PROOF,
-        planar: true,
-        goal: Goal::AnyMap,
         expected: [5, 5, 3, 0, 0],
+        ..EVIDENCE
     },
 ];
 

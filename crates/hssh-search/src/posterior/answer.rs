@@ -102,7 +102,8 @@ pub(crate) struct Ended {
 impl Running<'_> {
     /// Takes stock.
     pub(crate) fn end(self, search: &PosteriorSearch, stop: StopReason, seconds: f64) -> Ended {
-        let rest = self.rest();
+        // Nobody knows what the hypotheses weigh that have no layout.
+        let rest = if self.unsolvable.is_some() { 1.0 } else { self.rest() };
         let best = self.found.first().map(|found| found.cost.total());
         let open_bound = self.frontier.least_bound();
         let is_tied = |found: &&Found| best.is_some_and(|best| is_tie(best, found.cost.total()));

@@ -135,8 +135,9 @@ impl Grower<'_> {
         let travel = leaf.depth;
         let travels_left = (self.context.travels() - travel - 1) as u32;
         let entry = experience.observations[travel].entry;
-        let mut departure = self.departure(leaf, cursor, tree);
-        let first_visits = first_visits(&cursor.visits(leaf.node, tree, experience));
+        let visits = cursor.visits(leaf.node, tree, experience);
+        let first_visits = first_visits(&visits);
+        let mut departure = self.departure(leaf, visits);
 
         let (mut successors, mut scratch) = (Vec::new(), Scratch::default());
         let outcome =
@@ -188,9 +189,9 @@ impl Grower<'_> {
     }
 
     /// The layout of a hypothesis that is about to be expanded, and where the robot was in it.
-    fn departure(&self, leaf: &Leaf, cursor: &mut Cursor, tree: &Tree) -> Option<Departure> {
+    fn departure(&self, leaf: &Leaf, visits: Vec<Position>) -> Option<Departure> {
         let measured = self.measured?;
-        let trail = measured.frames.trail(cursor.visits(leaf.node, tree, self.context.experience));
+        let trail = measured.frames.trail(visits);
         let layout = match &leaf.placing {
             Placing::Done(layout) | Placing::Strained(layout, _) => Arc::clone(layout),
             Placing::Grown(origin) => {
@@ -213,7 +214,8 @@ impl Grower<'_> {
 
     /// The layout of a settled leaf.
     pub(crate) fn layout(&self, leaf: &Leaf, cursor: &mut Cursor, tree: &Tree) -> Option<Arc<Layout>> {
-        self.departure(leaf, cursor, tree).map(|departure| departure.layout)
+        self.departure(leaf, cursor.visits(leaf.node, tree, self.context.experience))
+            .map(|departure| departure.layout)
     }
 }
 

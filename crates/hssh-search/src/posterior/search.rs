@@ -222,8 +222,9 @@ impl<'a> Running<'a> {
             }
             let Some(mut leaf) = self.frontier.pop(explained) else { break };
             if !leaf.is_settled() {
-                self.settle(&mut leaf);
-                self.frontier.push(leaf); // its turn may be later now
+                if self.settle(&mut leaf) {
+                    self.frontier.push(leaf); // its turn may be later now
+                }
             } else if explained < self.grower.context.travels() {
                 self.grow(&leaf);
             } else if self.goal.accepts(leaf.pending == 0) {
@@ -280,8 +281,8 @@ impl<'a> Running<'a> {
     /// The next hypothesis that explains so many travels and that something may come of. It is settled.
     fn next(&mut self, explained: usize) -> Option<Leaf> {
         while let Some(mut leaf) = self.frontier.pop(explained) {
-            if leaf.bound <= self.reach && !leaf.is_settled() {
-                self.settle(&mut leaf);
+            if leaf.bound <= self.reach && !leaf.is_settled() && !self.settle(&mut leaf) {
+                continue;
             }
             if leaf.bound > self.reach {
                 self.frontier.park(leaf);
@@ -311,16 +312,18 @@ impl<'a> Running<'a> {
         self.grower.context.stop(&self.tree, self.frontier.bytes())
     }
 
-    fn settle(&mut self, leaf: &mut Leaf) {
+    /// Lays a hypothesis out; whether that is possible. One without a layout has had its turn.
+    fn settle(&mut self, leaf: &mut Leaf) -> bool {
         self.solved += 1;
         match self.grower.settle(leaf, &mut self.cursor, &self.tree) {
             Ok(factor) if factor < 1.0 => self.factors.push((leaf.bound, factor)),
             Ok(_) => {}
             Err(problem) => {
                 self.unsolvable.get_or_insert((leaf.depth, problem));
-                (leaf.bound, leaf.turn) = (f64::INFINITY, f64::INFINITY);
+                return false;
             }
         }
+        true
     }
 
     fn grow(&mut self, leaf: &Leaf) {

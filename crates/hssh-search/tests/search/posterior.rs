@@ -209,6 +209,27 @@ fn a_few_bearings_are_enough() {
     assert_eq!(full, sparse);
 }
 
+/// An absurd measurement ends no search in a loop, and nothing is called proved that could not be looked at.
+#[test]
+fn what_cannot_be_laid_out_is_left_out() {
+    let sound = snake_in_grid(3, 3, 1.0, 1);
+    for x in [1e5, 1e9, 1e100, 1e200] {
+        let mut travels = sound.travels().to_vec();
+        travels[4].odometry.as_mut().unwrap().x = x;
+        let exploration = Exploration::new(sound.star_types().to_vec(), sound.start(), travels).unwrap();
+        for order in
+            [PosteriorOrder::BestFirst, PosteriorOrder::Proof(Proving { best: usize::MAX, rest: 1.0 })]
+        {
+            let search =
+                PosteriorSearch { axioms: planar(), order, ..PosteriorSearch::new(PosteriorModel::THESIS) };
+            match search.explain(&exploration) {
+                Ok(found) => assert!(!(found.report().unsolvable && found.report().proved)),
+                Err(problem) => assert!(problem.to_string().contains("out of all proportion"), "{problem}"),
+            }
+        }
+    }
+}
+
 #[test]
 fn a_travel_without_odometry_is_named() {
     let world = grid(2, 2, 8.0).unwrap();
