@@ -5,7 +5,6 @@
 //! visit that shows how it stands to the walls. The log's corrected poses choose which scan stands
 //! for a visit, name the quadrant of the very first heading, and score the result.
 
-mod carmen;
 mod drive;
 mod score;
 mod topology;
@@ -14,14 +13,13 @@ mod walls;
 use std::error::Error;
 use std::f64::consts::FRAC_PI_2;
 use std::fs;
-use std::io::Read;
 use std::path::Path;
 
 use hssh_causal::{Exploration, NamedStar, Odometry, Travel};
+use hssh_local::{LaserLog, LoggedScan};
 use hssh_metrics::{Pose, wrap_angle};
 use hssh_world::World;
 
-use carmen::{Log, Scan};
 use drive::Noise;
 use topology::{Topology, Visit};
 
@@ -45,7 +43,9 @@ pub(crate) fn make(data: &Path, out: &Path) -> Result<String, Box<dyn Error>> {
 }
 
 fn text_and_table(data: &Path) -> Result<(String, String), Box<dyn Error>> {
-    let log = carmen::read(&unpacked(&data.join("logs/aces.log.gz"))?)?;
+    let path = data.join("logs/aces.log.gz");
+    let file = fs::File::open(&path).map_err(|error| format!("{}: {error}", path.display()))?;
+    let log = LaserLog::read(file)?;
     let topology = topology::read(&fs::read_to_string(data.join("logs/aces-topology.txt"))?)?;
     let world = topology.network.to_world()?;
     let stays = stays(&log, &topology)?;
@@ -55,27 +55,20 @@ fn text_and_table(data: &Path) -> Result<(String, String), Box<dyn Error>> {
     Ok((format!("{}\n{}", comment(&score), exploration.to_ron()), score.table))
 }
 
-fn unpacked(path: &Path) -> Result<String, Box<dyn Error>> {
-    let file = fs::File::open(path).map_err(|error| format!("{}: {error}", path.display()))?;
-    let mut text = String::new();
-    flate2::read::GzDecoder::new(file).read_to_string(&mut text)?;
-    Ok(text)
-}
-
 /// For every visit its scan and the heading read from it.
 ///
 /// Walls tell the heading up to quarter turns. The quarter is the one nearest to the heading at the
 /// visit before plus what the raw odometry turned since. At the first visit it is a matter of
 /// naming, and taken from the corrected pose so that x is the east of the topology.
-fn stays(log: &Log, topology: &Topology) -> Result<Vec<Stay>, Box<dyn Error>> {
+fn stays(log: &LaserLog, topology: &Topology) -> Result<Vec<Stay>, Box<dyn Error>> {
     let mut stays: Vec<Stay> = Vec::new();
     for visit in &topology.visits {
         let index = nearest_scan(log, topology, visit)?;
         let scan = &log.scans[index];
         let expected = stays.last().map_or(scan.corrected.theta, |before| {
-            before.heading + scan.raw.theta - log.scans[before.scan].raw.theta
+            before.heading + scan.odometry.theta - log.scans[before.scan].odometry.theta
         });
-        let walls = walls::direction(scan).ok_or_else(|| format!("scan {index} shows no walls"))?;
+        let walls = walls::direction(&scan.scan).ok_or_else(|| format!("scan {index} shows no walls"))?;
         let quarters = ((expected + walls) / FRAC_PI_2).round();
         let heading = wrap_angle(quarters * FRAC_PI_2 - walls);
         stays.push(Stay { place: visit.place, scan: index, heading });
@@ -84,23 +77,23 @@ fn stays(log: &Log, topology: &Topology) -> Result<Vec<Stay>, Box<dyn Error>> {
 }
 
 /// The scan of a visit that was taken nearest to the place's centre.
-fn nearest_scan(log: &Log, topology: &Topology, visit: &Visit) -> Result<usize, Box<dyn Error>> {
+fn nearest_scan(log: &LaserLog, topology: &Topology, visit: &Visit) -> Result<usize, Box<dyn Error>> {
     let centre = topology.network.crossings[visit.place].position;
-    let distance = |scan: &Scan| (scan.corrected.x - centre.x).hypot(scan.corrected.y - centre.y);
+    let distance = |scan: &LoggedScan| (scan.corrected.x - centre.x).hypot(scan.corrected.y - centre.y);
     let scans = visit.scans.iter().cloned().flatten().filter(|&index| index < log.scans.len());
     let nearest = scans.min_by(|&a, &b| distance(&log.scans[a]).total_cmp(&distance(&log.scans[b])));
     Ok(nearest.ok_or_else(|| format!("the log has none of the scans {:?}", visit.scans))?)
 }
 
 /// The measured relative poses of the places of successive visits.
-fn odometry(log: &Log, stays: &[Stay]) -> Vec<Odometry> {
+fn odometry(log: &LaserLog, stays: &[Stay]) -> Vec<Odometry> {
     let noise = Noise::of_this_robot();
     stays
         .windows(2)
         .map(|pair| {
             let [from, to] = [&pair[0], &pair[1]];
-            let (first, last) = (log.scans[from.scan].raw_index, log.scans[to.scan].raw_index);
-            drive::place_to_place(from.heading, &log.raw[first..=last], to.heading, &noise)
+            let (first, last) = (log.scans[from.scan].moment, log.scans[to.scan].moment);
+            drive::place_to_place(from.heading, &log.trajectory[first..=last], to.heading, &noise)
         })
         .collect()
 }

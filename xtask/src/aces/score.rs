@@ -3,10 +3,10 @@
 use std::fmt::Write;
 
 use hssh_causal::Odometry;
+use hssh_local::LaserLog;
 use hssh_metrics::{Pose, wrap_angle};
 use nalgebra::{Matrix3, Vector3};
 
-use super::carmen::Log;
 use super::topology::Topology;
 use super::{Stay, turned};
 
@@ -26,7 +26,7 @@ pub(super) struct Score {
 
 /// Scores the odometry. The truth is the difference of the two places' centres, turned into the
 /// building's axes: those of the log's corrected frame turned by the headings' mean difference.
-pub(super) fn score(log: &Log, topology: &Topology, stays: &[Stay], odometry: &[Odometry]) -> Score {
+pub(super) fn score(log: &LaserLog, topology: &Topology, stays: &[Stay], odometry: &[Odometry]) -> Score {
     let off: Vec<f64> =
         stays.iter().map(|stay| wrap_angle(log.scans[stay.scan].corrected.theta - stay.heading)).collect();
     let axes = mean(&off);

@@ -2,7 +2,7 @@
 
 use std::f64::consts::FRAC_PI_2;
 
-use super::carmen::Scan;
+use hssh_local::Scan;
 
 /// Beams this far apart make a chord: long enough not to follow the noise of single ranges.
 const CHORD: usize = 3;
@@ -51,7 +51,7 @@ impl Chord {
 
 fn chords(scan: &Scan) -> Vec<Chord> {
     let point = |beam: usize| {
-        let (sin, cos) = scan.beam_direction(beam).sin_cos();
+        let (sin, cos) = scan.bearing(beam).sin_cos();
         (scan.ranges[beam] * cos, scan.ranges[beam] * sin)
     };
     (CHORD..scan.ranges.len())
@@ -72,14 +72,12 @@ fn modulo_quarter_turn(angle: f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use hssh_metrics::Pose;
 
     /// What a robot off the centre of a room of 8 m × 6 m sees that has turned by `heading`.
     fn scan_of_a_room(heading: f64) -> Scan {
-        let mut scan =
-            Scan { ranges: vec![0.0; 180], corrected: Pose::IDENTITY, raw: Pose::IDENTITY, raw_index: 0 };
+        let mut scan = Scan { ranges: vec![0.0; 180] };
         for beam in 0..scan.ranges.len() {
-            let (sin, cos) = (heading + scan.beam_direction(beam)).sin_cos();
+            let (sin, cos) = (heading + scan.bearing(beam)).sin_cos();
             let to_wall = |to: f64, speed: f64| if speed == 0.0 { f64::INFINITY } else { to / speed };
             let x = to_wall(if cos > 0.0 { 5.0 } else { -3.0 }, cos);
             let y = to_wall(if sin > 0.0 { 2.0 } else { -4.0 }, sin);
