@@ -1,6 +1,7 @@
 //! Surveys real laser logs and compares what comes out with what is known of the buildings.
 
 mod drift;
+mod matching;
 mod truth;
 
 use std::error::Error;
@@ -11,11 +12,11 @@ use std::time::Instant;
 use hssh_causal::Exploration;
 use hssh_local::{
     LaserLog, LocalMapOptions, MatchOptions, Survey, SurveyOptions, global_map, global_poses,
-    mean_wall_distance, read_map, resemblance, survey, track, visit_frames,
+    mean_wall_distance, read_map, survey, track, visit_frames,
 };
 use hssh_metrics::Pose;
 use hssh_search::{Mapper, Placement, RankedMap, place_by_odometry};
-use hssh_topology::{Axioms, Isomorphism, Position};
+use hssh_topology::{Axioms, Position};
 
 use truth::Truth;
 
@@ -50,7 +51,9 @@ pub(crate) fn run(data: &Path) -> Result<(), Box<dyn Error>> {
         if name == "aces" {
             let truth = Truth::read(&data.join("logs/aces-topology.txt"))?;
             println!("{}", truth.score(&found));
-            println!("{}", likeness(&found, &truth));
+            println!("{}", matching::pairs(&found, &truth));
+            println!("{}", matching::among_optimal(&found, &exploration)?);
+            println!("{}", matching::gain(&found, &exploration)?);
             println!("{}", mapped(&log, &found, &exploration, &data.join("gridmap/aces.yaml"))?);
         } else {
             println!("{}", shapes(&found));
@@ -64,47 +67,6 @@ fn shapes(survey: &Survey) -> String {
     let ways: Vec<String> =
         survey.visits.iter().map(|visit| visit.star.gateways().count().to_string()).collect();
     format!("  {} visits; ways out: {}", ways.len(), ways.join(" "))
-}
-
-/// The least and the greatest log-likelihood ratio of pairs of visits to one place and to different ones.
-fn likeness(survey: &Survey, truth: &Truth) -> String {
-    let places: Vec<Option<&str>> = survey.visits.iter().map(|visit| truth.place_of(visit)).collect();
-    let (mut same, mut different) = (Vec::new(), Vec::new());
-    for second in 0..places.len() {
-        for first in 0..second {
-            let (one, other) = (&survey.visits[first], &survey.visits[second]);
-            for phi in Isomorphism::all(&other.star.star, &one.star.star) {
-                let Some(found) = resemblance(one, other, phi) else { continue };
-                // Of several ways to turn the one onto the other, one is true: that with the least turn
-                // of the building, which the track keeps to some 40° over the log.
-                let is_upright = found.placed.theta.abs() < std::f64::consts::FRAC_PI_4;
-                let is_same = places[first].is_some() && places[first] == places[second] && is_upright;
-                let list = if is_same { &mut same } else { &mut different };
-                list.push(found.log_likelihood_ratio);
-            }
-        }
-    }
-    let range = |values: &mut Vec<f64>| {
-        values.sort_by(f64::total_cmp);
-        match values[..] {
-            [] => "none".to_owned(),
-            [least, .., most] => {
-                format!(
-                    "{} pairs, {least:.1} to {most:.1}, median {:.1}",
-                    values.len(),
-                    values[values.len() / 2]
-                )
-            }
-            [only] => format!("1 pair, {only:.1}"),
-        }
-    };
-    let threshold = same.iter().copied().fold(f64::INFINITY, f64::min);
-    let above = different.iter().filter(|&&ratio| ratio >= threshold).count();
-    format!(
-        "  local maps of one place: log-likelihood ratio of {}\n  of isomorphic others: {}; {above} of them above the least of the former",
-        range(&mut same),
-        range(&mut different)
-    )
 }
 
 /// The maps that planarity leaves, and how the best looks as a grid beside the reference.

@@ -65,9 +65,14 @@ impl DistanceField {
     /// obstacle less half a cell, 0 in an obstacle, infinite if there is none.
     #[must_use]
     pub fn clearance(&self, cell: Cell) -> f64 {
-        match self.squared_cells(cell) {
-            Some(squared) => (f64::from(squared).sqrt() - 0.5).max(0.0) * self.lattice.resolution(),
-            None => f64::INFINITY,
+        self.clearance_at(self.lattice.index(cell))
+    }
+
+    /// The same of the cell with an index.
+    pub(crate) fn clearance_at(&self, index: usize) -> f64 {
+        match self.squared[index] {
+            NOWHERE => f64::INFINITY,
+            squared => (f64::from(squared).sqrt() - 0.5).max(0.0) * self.lattice.resolution(),
         }
     }
 }

@@ -18,7 +18,7 @@ pub use carmen::{
     LaserLog, LaserMessage, LogError, LogReader, LogWarning, LoggedScan, Message, MessageProblem,
 };
 pub use distance::DistanceField;
-pub use gateway::{Gateway, GatewayParameters};
+pub use gateway::{DoorParameters, Gateway, GatewayParameters, doors, hidden_area};
 pub use global_map::{global_map, global_poses, mean_wall_distance, visit_frames};
 pub use grid::{Cell, CellLine, GridError, Lattice, LatticeError, Occupancy, OccupancyGrid};
 pub use local_map::{LocalMap, LocalMapOptions};
@@ -27,7 +27,7 @@ pub use local_star::{
     PlaceKind, PlaceNumber, PlaceParameters, neighborhood,
 };
 pub use map_server::{MapError, encode_png, read_floor_plan, read_map, write_map, write_png};
-pub use matching::{MatchOptions, MotionNoise, Track, TrackedScan, track};
+pub use matching::{MatchOptions, MotionNoise, Track, TrackedScan, Tracker, track};
 pub use place::{PlaceOptions, Sighting, WayOut, sight};
 pub use scan::Scan;
 pub use skeleton::{

@@ -3,7 +3,7 @@
 use std::error::Error;
 use std::path::Path;
 
-use hssh_local::{Gateway, PlaceGraph, PlaceParameters, read_map};
+use hssh_local::{DoorParameters, Gateway, PlaceGraph, PlaceParameters, read_map};
 use serde::Deserialize;
 
 use crate::table::aligned;
@@ -11,8 +11,18 @@ use crate::table::aligned;
 /// A gateway is at a door if it is this near to the middle of the door, in metres.
 const NEAR: f64 = 0.5;
 
-/// Widest gateways that are taken for doors, in metres.
-const WIDTHS: [f64; 7] = [0.9, 1.1, 1.3, 1.5, 1.8, 2.2, 3.0];
+/// What is taken for a door: no wider than so many metres, and hiding so many square metres.
+const CRITERIA: [(f64, f64); 9] = [
+    (0.9, 0.0),
+    (1.1, 0.0),
+    (1.5, 0.0),
+    (1.8, 0.0),
+    (1.1, 15.0),
+    (1.1, 20.0),
+    (1.1, 25.0),
+    (1.1, 30.0),
+    (1.8, 20.0),
+];
 
 #[derive(Deserialize)]
 struct Door {
@@ -38,6 +48,7 @@ pub(super) fn report(folder: &Path) -> Result<String, Box<dyn Error>> {
     let mut rows = vec![
         [
             "widest",
+            "hides",
             "constrictions",
             "at a door",
             "precision",
@@ -49,13 +60,15 @@ pub(super) fn report(folder: &Path) -> Result<String, Box<dyn Error>> {
         .map(str::to_owned)
         .to_vec(),
     ];
-    for widest in WIDTHS {
-        let score = |gateways: &[Gateway]| score(&doors, gateways, widest);
+    for (widest, hidden) in CRITERIA {
+        let criterion = DoorParameters { widest, least_hidden: hidden, ..DoorParameters::default() };
+        let score = |gateways: &[Gateway]| score(&doors, &hssh_local::doors(&grid, gateways, &criterion));
         let (taken, at_door, found) = score(&gateways[..constrictions]);
         let (_, _, found_by_any) = score(&gateways);
         let percent = |part: usize, all: usize| format!("{:.0}%", 100.0 * part as f64 / all.max(1) as f64);
         rows.push(vec![
             format!("{widest:.1} m"),
+            format!("{hidden:.0} m²"),
             taken.to_string(),
             at_door.to_string(),
             percent(at_door, taken),
@@ -68,7 +81,7 @@ pub(super) fn report(folder: &Path) -> Result<String, Box<dyn Error>> {
     let missed = doors.iter().filter(|door| gateways.iter().all(|gateway| !is_at(door, gateway)));
     let missed: Vec<&str> = missed.map(|door| door.name.as_str()).collect();
     Ok(format!(
-        "gdc3: constrictions of the medial axis within {NEAR} m of a door, by the widest that is taken\n{}no gateway at: {}\n",
+        "gdc3: constrictions of the medial axis within {NEAR} m of a door, by how wide they may be and how much they hide\n{}no gateway at: {}\n",
         aligned(&rows),
         missed.join(" ")
     ))
@@ -79,10 +92,9 @@ fn is_at(door: &Door, gateway: &Gateway) -> bool {
     dx.hypot(dy) <= NEAR
 }
 
-/// How many gateways are narrow enough, how many of these are at a door, and how many doors have one.
-fn score(doors: &[Door], gateways: &[Gateway], widest: f64) -> (usize, usize, usize) {
-    let taken: Vec<&Gateway> = gateways.iter().filter(|gateway| gateway.width <= widest).collect();
-    let at_door = taken.iter().filter(|gateway| doors.iter().any(|door| is_at(door, gateway))).count();
-    let found = doors.iter().filter(|door| taken.iter().any(|gateway| is_at(door, gateway))).count();
-    (taken.len(), at_door, found)
+/// How many gateways there are, how many of these are at a door, and how many doors have one.
+fn score(doors: &[Door], gateways: &[Gateway]) -> (usize, usize, usize) {
+    let at_door = gateways.iter().filter(|gateway| doors.iter().any(|door| is_at(door, gateway))).count();
+    let found = doors.iter().filter(|door| gateways.iter().any(|gateway| is_at(door, gateway))).count();
+    (gateways.len(), at_door, found)
 }

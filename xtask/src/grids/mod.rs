@@ -10,6 +10,7 @@ mod stability;
 use std::error::Error;
 
 use crate::flags::Grids;
+pub(crate) use aces::known_places;
 
 /// Prints all measurements, one paragraph each.
 pub(crate) fn run(flags: &Grids) -> Result<(), Box<dyn Error>> {

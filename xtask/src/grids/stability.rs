@@ -4,8 +4,8 @@ use std::error::Error;
 use std::path::Path;
 
 use hssh_local::{
-    Lattice, LocalStar, Occupancy, OccupancyGrid, PlaceGraph, PlaceParameters, neighborhood, read_floor_plan,
-    read_map,
+    Gateway, Lattice, LocalStar, Occupancy, OccupancyGrid, PlaceGraph, PlaceOptions, PlaceParameters,
+    neighborhood, read_floor_plan, read_map, sight,
 };
 use hssh_metrics::wrap_angle;
 use hssh_topology::Isomorphism;
@@ -13,6 +13,9 @@ use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 
 use super::aces::{WINDOW, corridors, known_places};
+
+/// The side of the window around a place among rooms, in metres.
+const SMALL_WINDOW: f64 = 14.0;
 
 /// Poses per place.
 const POSES: usize = 20;
@@ -29,22 +32,49 @@ pub(super) fn report(data: &Path) -> Result<String, Box<dyn Error>> {
     let aces = read_map(&maps.join("aces.yaml"))?;
     let gdc = read_map(&maps.join("gdc3").join("3.yaml"))?;
     let mut text = format!(
-        "stability: the same star and gateways in a window of {WINDOW} m, turned and moved at random and with {:.0}% noise\n",
+        "stability: the same star and gateways in windows of {SMALL_WINDOW} m (ACES: {WINDOW} m), turned and moved at random and with {:.0}% noise\n",
         100.0 * NOISE
     );
     let known = known_places(data)?;
     let points = known.iter().map(|place| place.point).collect::<Vec<_>>();
     let everywhere = PlaceGraph::new(&gdc, &PlaceParameters::default())?;
     let wide = everywhere.places.iter().filter(|place| place.clearance > 0.8).map(|place| place.center);
-    for (name, grid, points, parameters) in [
-        ("EVG-Thin", &crossing, vec![[11.1, 7.1]], PlaceParameters::default()),
-        ("ACES, nine places", &aces, points, corridors()),
-        ("gdc3, places with 0.8 m around", &gdc, wide.collect(), PlaceParameters::default()),
+    let by_axis = |parameters: PlaceParameters| -> Box<Reading> {
+        Box::new(move |grid, at| {
+            let found = neighborhood(grid, at, &parameters).ok()?;
+            Some((found.star, found.center, found.clearance))
+        })
+    };
+    let by_ways: Box<Reading> = Box::new(|grid, at| {
+        let found = sight(grid, at.into(), &PlaceOptions::default()).filter(|found| found.is_place)?;
+        let gateways: Vec<Gateway> = found.ways.iter().map(|way| way.gateway).collect();
+        let parameters = PlaceParameters {
+            straight: PlaceOptions::default().straight,
+            aligned: PlaceOptions::default().aligned,
+            ..PlaceParameters::default()
+        };
+        Some((
+            LocalStar::new(found.center.into(), &gateways, &parameters)?,
+            found.center.into(),
+            found.clearance,
+        ))
+    });
+    for (name, grid, points, read, window) in [
+        ("EVG-Thin", &crossing, vec![[11.1, 7.1]], by_axis(PlaceParameters::default()), SMALL_WINDOW),
+        ("ACES, nine places", &aces, points.clone(), by_axis(corridors(8.0)), WINDOW),
+        ("ACES, as along logs", &aces, points, by_ways, WINDOW),
+        (
+            "gdc3, places with 0.8 m around",
+            &gdc,
+            wide.collect(),
+            by_axis(PlaceParameters::default()),
+            SMALL_WINDOW,
+        ),
     ] {
         let (mut same, mut all) = (0, 0);
         let mut least = POSES;
         for (index, &point) in points.iter().enumerate() {
-            let Some(equal) = equal_stars(grid, point, &parameters, index as u64) else { continue };
+            let Some(equal) = equal_stars(grid, point, &read, window, index as u64) else { continue };
             (same, all, least) = (same + equal, all + POSES, least.min(equal));
         }
         text += &format!(
@@ -55,32 +85,41 @@ pub(super) fn report(data: &Path) -> Result<String, Box<dyn Error>> {
     Ok(text)
 }
 
+/// How a star is read from a grid around a point: with the place's center and its clearance.
+type Reading = dyn Fn(&OccupancyGrid, [f64; 2]) -> Option<(LocalStar, [f64; 2], f64)>;
+
 /// In how many random views of the place at `point` its star is the one of the undisturbed view.
 fn equal_stars(
     grid: &OccupancyGrid,
     point: [f64; 2],
-    parameters: &PlaceParameters,
+    read: &Reading,
+    window: f64,
     seed: u64,
 ) -> Option<usize> {
-    let still = neighborhood(&grid.window(point, WINDOW)?, point, parameters).ok()?;
+    let (still, center, clearance) = read(&grid.window(point, window)?, point)?;
     let mut random = ChaCha8Rng::seed_from_u64(seed);
     let mut equal = 0;
     for _ in 0..POSES {
         let turn = random.random_range(-3.1..3.1);
-        let shift = [0, 1].map(|_| random.random_range(-0.5..0.5) * still.clearance.min(1.5));
-        let robot = [still.center[0] + shift[0], still.center[1] + shift[1]];
-        let view = view(grid, robot, turn, &mut random)?;
-        let seen = neighborhood(&view, [0.0, 0.0], parameters);
-        equal += usize::from(seen.is_ok_and(|seen| is_same(&still.star, &seen.star, turn)));
+        let shift = [0, 1].map(|_| random.random_range(-0.5..0.5) * clearance.min(1.5));
+        let robot = [center[0] + shift[0], center[1] + shift[1]];
+        let view = view(grid, robot, turn, window, &mut random)?;
+        equal += usize::from(read(&view, [0.0, 0.0]).is_some_and(|(seen, ..)| is_same(&still, &seen, turn)));
     }
     Some(equal)
 }
 
 /// The grid as a robot sees it that stands at `robot` and is turned by `turn`, with noise.
-fn view(grid: &OccupancyGrid, robot: [f64; 2], turn: f64, random: &mut ChaCha8Rng) -> Option<OccupancyGrid> {
+fn view(
+    grid: &OccupancyGrid,
+    robot: [f64; 2],
+    turn: f64,
+    window: f64,
+    random: &mut ChaCha8Rng,
+) -> Option<OccupancyGrid> {
     let resolution = grid.lattice().resolution();
-    let side = (WINDOW / resolution) as u32;
-    let lattice = Lattice::new(side, side, resolution, [-WINDOW / 2.0; 2]).ok()?;
+    let side = (window / resolution) as u32;
+    let lattice = Lattice::new(side, side, resolution, [-window / 2.0; 2]).ok()?;
     let (sin, cos) = turn.sin_cos();
     let cells = lattice.cells().map(|cell| {
         let [x, y] = lattice.center(cell);

@@ -130,9 +130,9 @@ impl Lattice {
     }
 
     /// All cells in row-major order from the bottom.
-    pub fn cells(&self) -> impl ExactSizeIterator<Item = Cell> + use<> {
-        let lattice = *self;
-        (0..lattice.len()).map(move |index| lattice.cell(index))
+    pub fn cells(&self) -> impl Iterator<Item = Cell> + use<> {
+        let width = self.width;
+        (0..self.height).flat_map(move |row| (0..width).map(move |column| Cell { column, row }))
     }
 
     /// The cell in which a point in metres lies, if it lies on the lattice. Lower and left borders
@@ -178,6 +178,21 @@ impl Lattice {
         [(1, 0), (0, 1), (-1, 0), (0, -1)]
             .into_iter()
             .filter_map(move |(columns, rows)| lattice.step(cell, columns, rows))
+    }
+
+    /// The part of the lattice within a square of `side` metres around a point, with the same cells, and the
+    /// cell of this lattice that is the first one of the part; `None` if the square has none of its cells.
+    pub(crate) fn window(&self, center: [f64; 2], side: f64) -> Option<(Lattice, Cell)> {
+        let bounds = |low: f64, count: u32| {
+            let first = low.round().clamp(0.0, f64::from(count)) as u32;
+            let end = (low + side / self.resolution).round().clamp(0.0, f64::from(count)) as u32;
+            (first, end.saturating_sub(first))
+        };
+        let [x, y] = self.continuous([center[0] - side / 2.0, center[1] - side / 2.0]);
+        let ((column, width), (row, height)) = (bounds(x, self.width), bounds(y, self.height));
+        let origin = self.point([f64::from(column), f64::from(row)]);
+        let lattice = Lattice::new(width, height, self.resolution, origin).ok()?;
+        Some((lattice, Cell { column, row }))
     }
 
     /// The cells of the straight line between two cells of the lattice, both included.

@@ -98,21 +98,9 @@ impl OccupancyGrid {
     /// `None` if no cell of the grid is in it.
     #[must_use]
     pub fn window(&self, center: [f64; 2], side: f64) -> Option<OccupancyGrid> {
-        let bounds = |low: f64, count: u32| {
-            let cells = side / self.lattice.resolution();
-            let first = low.round().clamp(0.0, f64::from(count)) as u32;
-            let end = (low + cells).round().clamp(0.0, f64::from(count)) as u32;
-            (first, end.saturating_sub(first))
-        };
-        let [x, y] = self.lattice.continuous([center[0] - side / 2.0, center[1] - side / 2.0]);
-        let (column, width) = bounds(x, self.lattice.width());
-        let (row, height) = bounds(y, self.lattice.height());
-        let origin = self.lattice.point([f64::from(column), f64::from(row)]);
-        let lattice = Lattice::new(width, height, self.lattice.resolution(), origin).ok()?;
-        let cells = lattice
-            .cells()
-            .map(|cell| self.get(Cell { column: cell.column + column, row: cell.row + row }))
-            .collect();
+        let (lattice, first) = self.lattice.window(center, side)?;
+        let known = |cell: Cell| Cell { column: first.column + cell.column, row: first.row + cell.row };
+        let cells = lattice.cells().map(|cell| self.get(known(cell))).collect();
         Some(OccupancyGrid { lattice, cells })
     }
 }

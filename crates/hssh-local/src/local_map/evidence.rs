@@ -132,14 +132,30 @@ impl LocalMap {
     /// What is known of each cell.
     #[must_use]
     pub fn classify(&self) -> OccupancyGrid {
+        let cells = self.log_odds.iter().map(|&log_odds| self.occupancy(log_odds)).collect();
+        OccupancyGrid::new(self.lattice, cells).expect("there is one number for each cell of the lattice")
+    }
+
+    /// What is known of the cells in a square of `side` metres around a point, with the same cells; `None` if
+    /// no cell of the map is in it.
+    #[must_use]
+    pub fn window(&self, center: Vector2<f64>, side: f64) -> Option<OccupancyGrid> {
+        let (lattice, first) = self.lattice.window([center.x, center.y], side)?;
+        let known = |cell: Cell| {
+            let cell = Cell { column: first.column + cell.column, row: first.row + cell.row };
+            self.occupancy(self.log_odds[self.lattice.index(cell)])
+        };
+        let cells = lattice.cells().map(known).collect();
+        Some(OccupancyGrid::new(lattice, cells).expect("there is one cell for each cell of the window"))
+    }
+
+    fn occupancy(&self, log_odds: f32) -> Occupancy {
         let (free, occupied) = self.options.thresholds;
-        let class = |&log_odds: &f32| match log_odds {
+        match log_odds {
             evidence if evidence > occupied => Occupancy::Occupied,
             evidence if evidence < free => Occupancy::Free,
             _ => Occupancy::Unknown,
-        };
-        OccupancyGrid::new(self.lattice, self.log_odds.iter().map(class).collect())
-            .expect("there is one number for each cell of the lattice")
+        }
     }
 }
 

@@ -1,10 +1,9 @@
 //! Surfaces seen by the laser: points with the direction they face, and a lattice of buckets to find the
 //! nearest one.
 
-use std::collections::BTreeMap;
-
 use hssh_metrics::Pose;
 use nalgebra::{Vector2, vector};
+use rustc_hash::FxHashMap;
 
 use crate::scan::Scan;
 
@@ -63,7 +62,9 @@ fn normal(points: &[Vector2<f64>]) -> Option<Vector2<f64>> {
 /// Surface points in one frame, in buckets.
 #[derive(Clone, Default, Debug)]
 pub(super) struct Cloud {
-    buckets: BTreeMap<(i32, i32), Vec<SurfacePoint>>,
+    points: Vec<SurfacePoint>,
+    /// For each bucket, which points are in it.
+    buckets: FxHashMap<(i32, i32), Vec<u32>>,
 }
 
 impl Cloud {
@@ -77,13 +78,14 @@ impl Cloud {
             if self.nearest(position, spacing).is_some() {
                 continue;
             }
-            self.buckets.entry(bucket(position)).or_default().push(SurfacePoint { position, normal });
+            self.buckets.entry(bucket(position)).or_default().push(self.points.len() as u32);
+            self.points.push(SurfacePoint { position, normal });
         }
     }
 
-    /// All points.
-    pub(super) fn points(&self) -> impl Iterator<Item = &SurfacePoint> {
-        self.buckets.values().flatten()
+    /// All points, in the order in which they were added.
+    pub(super) fn points(&self) -> &[SurfacePoint] {
+        &self.points
     }
 
     /// The nearest point with a normal within `reach` metres, which is at most a bucket's side.
@@ -93,7 +95,8 @@ impl Cloud {
         let mut least = reach * reach;
         for dy in -1..=1 {
             for dx in -1..=1 {
-                for point in self.buckets.get(&(column + dx, row + dy)).into_iter().flatten() {
+                for &index in self.buckets.get(&(column + dx, row + dy)).into_iter().flatten() {
+                    let point = &self.points[index as usize];
                     let distance = (point.position - position).norm_squared();
                     if distance < least && point.normal.is_some() {
                         (best, least) = (Some(point), distance);

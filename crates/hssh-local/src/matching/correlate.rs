@@ -30,12 +30,11 @@ impl LikelihoodField {
     pub(super) fn new(cloud: &Cloud, center: Vector2<f64>, reach: f64) -> Self {
         let side = (2.0 * reach / CELL).ceil() as usize;
         let origin = center - vector![reach, reach];
-        let mut field = LikelihoodField {
-            origin,
-            width: side,
-            height: side,
-            cells: vec![OUTLIER.ln() as f32; side * side],
-        };
+        let off_all = OUTLIER.ln() as f32;
+        let mut field =
+            LikelihoodField { origin, width: side, height: side, cells: vec![off_all; side * side] };
+        // The nearest point of each cell is the one that speaks for it: squared distances in cells.
+        let mut squared = vec![f64::INFINITY; side * side];
         let radius = (3.0 * BLUR / CELL).ceil() as i64;
         for point in cloud.points() {
             let at = (point.position - origin) / CELL;
@@ -43,12 +42,15 @@ impl LikelihoodField {
             for dy in -radius..=radius {
                 for dx in -radius..=radius {
                     let Some(index) = field.index(column + dx, row + dy) else { continue };
-                    let corner = vector![(column + dx) as f64 + 0.5, (row + dy) as f64 + 0.5];
-                    let squared = (corner - at).norm_squared() * (CELL / BLUR).powi(2);
-                    let value = (OUTLIER + (1.0 - OUTLIER) * (-0.5 * squared).exp()).ln() as f32;
-                    field.cells[index] = field.cells[index].max(value);
+                    let middle = vector![(column + dx) as f64 + 0.5, (row + dy) as f64 + 0.5];
+                    squared[index] = squared[index].min((middle - at).norm_squared());
                 }
             }
+        }
+        for (cell, squared) in field.cells.iter_mut().zip(squared).filter(|(_, squared)| squared.is_finite())
+        {
+            let likelihood = (-0.5 * squared * (CELL / BLUR).powi(2)).exp();
+            *cell = (OUTLIER + (1.0 - OUTLIER) * likelihood).ln() as f32;
         }
         field
     }

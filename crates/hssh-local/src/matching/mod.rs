@@ -10,4 +10,4 @@ mod track;
 
 pub use motion::MotionNoise;
 pub use options::MatchOptions;
-pub use track::{Track, TrackedScan, track};
+pub use track::{Track, TrackedScan, Tracker, track};

@@ -9,6 +9,7 @@ use super::cloud::{Cloud, SurfacePoint, surfaces};
 use super::correlate::{LikelihoodField, search};
 use super::options::MatchOptions;
 use crate::carmen::LaserLog;
+use crate::scan::Scan;
 
 /// Where a scan was taken.
 #[derive(Clone, Copy, PartialEq, Debug)]
@@ -63,34 +64,60 @@ impl Reference {
     }
 }
 
-/// Tracks the robot through a log, from scans and raw odometry. `progress` is told after each scan how
-/// many are done.
-pub fn track(log: &LaserLog, options: &MatchOptions, mut progress: impl FnMut(usize)) -> Track {
-    let mut track = Track::default();
-    let mut keyframes: VecDeque<Keyframe> = VecDeque::new();
-    let mut reference = Reference::new(keyframes.iter(), Pose::IDENTITY, options);
-    for (index, logged) in log.scans.iter().enumerate() {
-        let seen = surfaces(&logged.scan, options.reach, options.spacing);
-        let tracked = match (track.scans.last(), index.checked_sub(1)) {
-            (Some(last), Some(before)) => {
-                let moments = log.scans[before].moment..=logged.moment;
-                let odometry = options.odometry.motion(&log.trajectory[moments]);
-                let step = matched(&reference, &seen, last.pose, &odometry, options);
+/// Tracks a robot scan by scan, from scans and raw odometry.
+pub struct Tracker {
+    options: MatchOptions,
+    last: Option<TrackedScan>,
+    keyframes: VecDeque<Keyframe>,
+    reference: Reference,
+}
+
+impl Tracker {
+    /// A tracker that has seen nothing yet.
+    #[must_use]
+    pub fn new(options: MatchOptions) -> Self {
+        let reference = Reference::new(std::iter::empty(), Pose::IDENTITY, &options);
+        Tracker { options, last: None, keyframes: VecDeque::new(), reference }
+    }
+
+    /// Where the next scan was taken. `odometry` has the raw poses since the scan before, that of the scan
+    /// before first and that of this one last; of the first scan only one.
+    ///
+    /// # Panics
+    /// If there is no raw pose.
+    pub fn add(&mut self, scan: &Scan, odometry: &[Pose]) -> TrackedScan {
+        let seen = surfaces(scan, self.options.reach, self.options.spacing);
+        let tracked = match &self.last {
+            None => TrackedScan { pose: Pose::IDENTITY, step: None, travelled: 0.0 },
+            Some(last) => {
+                let motion = self.options.odometry.motion(odometry);
+                let step = matched(&self.reference, &seen, last.pose, &motion, &self.options);
                 TrackedScan {
                     pose: last.pose.compose(step.mean),
                     step: Some(step),
                     travelled: last.travelled + step.mean.translation().norm(),
                 }
             }
-            _ => TrackedScan { pose: Pose::IDENTITY, step: None, travelled: 0.0 },
         };
-        if keyframes.back().is_none_or(|last| is_new_view(last, &tracked, options)) {
+        if self.keyframes.back().is_none_or(|last| is_new_view(last, &tracked, &self.options)) {
             let TrackedScan { pose, travelled, .. } = tracked;
-            keyframes.push_back(Keyframe { pose, travelled, surfaces: seen });
-            keyframes.retain(|keyframe| travelled - keyframe.travelled <= options.memory);
-            reference = Reference::new(keyframes.iter().rev(), pose, options);
+            self.keyframes.push_back(Keyframe { pose, travelled, surfaces: seen });
+            self.keyframes.retain(|keyframe| travelled - keyframe.travelled <= self.options.memory);
+            self.reference = Reference::new(self.keyframes.iter().rev(), pose, &self.options);
         }
-        track.scans.push(tracked);
+        self.last = Some(tracked);
+        tracked
+    }
+}
+
+/// Tracks the robot through a log. `progress` is told after each scan how many are done.
+pub fn track(log: &LaserLog, options: &MatchOptions, mut progress: impl FnMut(usize)) -> Track {
+    let mut tracker = Tracker::new(*options);
+    let mut track = Track::default();
+    let mut before = log.scans.first().map_or(0, |first| first.moment);
+    for (index, logged) in log.scans.iter().enumerate() {
+        track.scans.push(tracker.add(&logged.scan, &log.trajectory[before..=logged.moment]));
+        before = logged.moment;
         progress(index + 1);
     }
     track

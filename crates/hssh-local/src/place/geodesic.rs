@@ -11,12 +11,15 @@ const UNREACHED: u32 = u32::MAX;
 pub(super) struct Geodesic {
     lattice: Lattice,
     fifths: Vec<u32>,
+    /// The cells that were reached, the nearest first.
+    reached: Vec<Cell>,
 }
 
 impl Geodesic {
     /// Distances from `start` through the cells that `is_free` tells, as far as `reach` metres.
     pub(super) fn new(lattice: &Lattice, start: Cell, reach: f64, is_free: impl Fn(Cell) -> bool) -> Self {
         let mut fifths = vec![UNREACHED; lattice.len()];
+        let mut reached = Vec::new();
         let most = (reach / lattice.resolution() * f64::from(STRAIGHT)) as usize;
         // Dijkstra's algorithm, with one list of cells per distance.
         let mut waiting: Vec<Vec<Cell>> = vec![Vec::new(); most + DIAGONAL as usize + 1];
@@ -27,6 +30,7 @@ impl Geodesic {
                 if fifths[lattice.index(cell)] != distance as u32 {
                     continue;
                 }
+                reached.push(cell);
                 for (columns, rows) in neighbors() {
                     let Some(next) = lattice.step(cell, columns, rows).filter(|&next| is_free(next)) else {
                         continue;
@@ -40,7 +44,7 @@ impl Geodesic {
                 }
             }
         }
-        Geodesic { lattice: *lattice, fifths }
+        Geodesic { lattice: *lattice, fifths, reached }
     }
 
     /// Metres to a cell, if it was reached.
@@ -49,12 +53,17 @@ impl Geodesic {
         (fifths != UNREACHED).then(|| f64::from(fifths) / f64::from(STRAIGHT) * self.lattice.resolution())
     }
 
-    /// The connected groups of the cells whose distances are in a range, in the order of their first cells.
+    /// The cells that were reached, the nearest first.
+    pub(super) fn reached(&self) -> &[Cell] {
+        &self.reached
+    }
+
+    /// The connected groups of the cells whose distances are in a range, in the order of their nearest cells.
     pub(super) fn groups(&self, range: std::ops::Range<f64>) -> Vec<Vec<Cell>> {
         let is_in = |cell: Cell| self.distance(cell).is_some_and(|distance| range.contains(&distance));
         let mut is_seen = vec![false; self.lattice.len()];
         let mut groups = Vec::new();
-        for start in self.lattice.cells() {
+        for &start in &self.reached {
             if is_seen[self.lattice.index(start)] || !is_in(start) {
                 continue;
             }

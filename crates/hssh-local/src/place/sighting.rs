@@ -1,15 +1,20 @@
 //! What a neighborhood looks like from where the robot is: its ways out, and whether it is a place.
 
+use std::collections::BTreeSet;
+
 use hssh_metrics::wrap_angle;
 use nalgebra::{Vector2, vector};
 
 use super::center::center;
+use super::dead_end::dead_end;
 use super::geodesic::Geodesic;
 use super::options::PlaceOptions;
 use super::ways::{WayOut, ways_out};
-use crate::distance::DistanceField;
 use crate::grid::{Cell, Lattice, Occupancy, OccupancyGrid};
 use crate::skeleton::{FreeSpace, SkeletonParameters};
+
+/// A place is looked at again at most so often.
+const MOST_LOOKS: usize = 8;
 
 /// A neighborhood as seen in a local map.
 #[derive(Clone, PartialEq, Debug)]
@@ -20,11 +25,16 @@ pub struct Sighting {
     pub clearance: f64,
     /// The ways out, in no particular order.
     pub ways: Vec<WayOut>,
-    /// Whether there is a choice or a turn: anything but a way on and a way back.
+    /// Whether there is a choice, a turn or an end: anything but a way on and a way back.
     pub is_place: bool,
 }
 
 /// Looks at the neighborhood of a point in metres. `None` if no robot fits there.
+///
+/// What looks like a place is looked at again from the center that it seems to have, until the center stays
+/// where it is: from the corridor before a corner, the way around the corner points aside, and only from the
+/// corner itself does it show its axis. So a place has the same center from wherever it is sighted, as the
+/// distinctive state of hill-climbing would be (section 2.1.1).
 #[must_use]
 pub fn sight(grid: &OccupancyGrid, from: Vector2<f64>, options: &PlaceOptions) -> Option<Sighting> {
     let parameters = SkeletonParameters {
@@ -32,42 +42,85 @@ pub fn sight(grid: &OccupancyGrid, from: Vector2<f64>, options: &PlaceOptions) -
         narrowest_passage: options.narrowest_way,
         ..SkeletonParameters::default()
     };
-    let free = FreeSpace::new(&without_gaps(grid, options.gap), &parameters);
+    let grid = without_gaps(grid, options.gap);
+    let free = FreeSpace::new(&grid, &parameters);
+    let mut here = nearest_free(grid.lattice(), &free, from)?;
+    let (mut sighting, mut inside) = look_from(&grid, &free, here, options);
+    for _ in 0..MOST_LOOKS {
+        if !sighting.is_place || inside == here {
+            break;
+        }
+        here = inside;
+        (sighting, inside) = look_from(&grid, &free, here, options);
+    }
+    sighting.is_place &= (sighting.center - from).norm() < options.arrival + sighting.clearance;
+    Some(sighting)
+}
+
+/// The neighborhood as it looks from one cell, and its cell that is nearest to its center.
+fn look_from(
+    grid: &OccupancyGrid,
+    free: &FreeSpace,
+    start: Cell,
+    options: &PlaceOptions,
+) -> (Sighting, Cell) {
     let lattice = grid.lattice();
-    let start = nearest_free(lattice, &free, from)?;
-    let middle = widest(lattice, &free, start, options.climb);
+    let middle = widest(lattice, free, start, options.climb);
     let clearance = free.field().clearance(middle);
     let border = clearance + options.margin;
     let distances = Geodesic::new(lattice, middle, border + options.depth, |cell| free.contains(cell));
     let ways = ways_out(lattice, &distances, border, options);
     let [x, y] = lattice.center(middle);
-    let center = center(ways.iter().map(|way| way.axis), vector![x, y]);
-    let is_near = (center - from).norm() < options.arrival + clearance;
-    let is_place = is_near && is_place(&ways, options);
-    Some(Sighting { center, clearance, ways, is_place })
+    let crossing = center(ways.iter().map(|way| way.out.axis), vector![x, y]);
+    let place = match &ways[..] {
+        [] => None,
+        [only] => {
+            let is_way: BTreeSet<Cell> = only.cells.iter().copied().collect();
+            let pocket = distances.reached().iter().filter(|cell| !is_way.contains(cell));
+            let pocket: Vec<Cell> = pocket.copied().collect();
+            dead_end(grid, free, &pocket, only.out.axis.direction, options)
+        }
+        [one, other] => (!is_passage(&one.out, &other.out, options)).then_some(crossing),
+        _ => Some(crossing),
+    };
+    let center = place.unwrap_or(crossing);
+    let off = |cell: Cell| {
+        let [x, y] = lattice.center(cell);
+        (center - vector![x, y]).norm_squared()
+    };
+    let near = distances.reached().iter().copied();
+    let inside = near
+        .take_while(|&cell| distances.distance(cell).is_some_and(|distance| distance <= border))
+        .min_by(|&a, &b| off(a).total_cmp(&off(b)));
+    let ways = ways.into_iter().map(|way| way.out).collect();
+    (Sighting { center, clearance, ways, is_place: place.is_some() }, inside.unwrap_or(middle))
 }
 
-/// A way on and a way back make a path; nothing at all is no place either.
-fn is_place(ways: &[WayOut], options: &PlaceOptions) -> bool {
-    match ways {
-        [] | [_] => false,
-        [one, other] => {
-            let turn = wrap_angle(one.gateway.bearing - other.gateway.bearing - std::f64::consts::PI);
-            turn.abs() > options.straight
-        }
-        _ => true,
-    }
+/// A way on and a way back make a path and no place.
+fn is_passage(one: &WayOut, other: &WayOut, options: &PlaceOptions) -> bool {
+    let turn = wrap_angle(one.gateway.bearing - other.gateway.bearing - std::f64::consts::PI);
+    turn.abs() <= options.straight
 }
 
 /// The grid with what was not seen taken for free within `gap` metres of free cells.
 fn without_gaps(grid: &OccupancyGrid, gap: f64) -> OccupancyGrid {
     let lattice = *grid.lattice();
-    let to_free = DistanceField::new(lattice, |index| grid.cells()[index] == Occupancy::Free);
-    let filled = lattice.cells().map(|cell| match grid.get(cell) {
-        Occupancy::Unknown if to_free.clearance(cell) <= gap => Occupancy::Free,
-        known => known,
-    });
-    OccupancyGrid::new(lattice, filled.collect()).expect("there is one cell for each cell of the grid")
+    // From the middle of a free cell to that of an unknown one: so far that `gap` is left between their sides.
+    let reach = gap / lattice.resolution() + 0.5;
+    let cells = reach as i32;
+    let around: Vec<(i32, i32)> = (-cells..=cells)
+        .flat_map(|rows| (-cells..=cells).map(move |columns| (columns, rows)))
+        .filter(|&(columns, rows)| f64::from(columns).hypot(f64::from(rows)) <= reach)
+        .collect();
+    let mut filled = grid.clone();
+    for cell in lattice.cells().filter(|&cell| grid.get(cell) == Occupancy::Free) {
+        for near in around.iter().filter_map(|&(columns, rows)| lattice.step(cell, columns, rows)) {
+            if grid.get(near) == Occupancy::Unknown {
+                filled.set(near, Occupancy::Free);
+            }
+        }
+    }
+    filled
 }
 
 /// The cell nearest to a point in which a robot fits, no farther than a metre away.
@@ -85,7 +138,7 @@ fn nearest_free(lattice: &Lattice, free: &FreeSpace, from: Vector2<f64>) -> Opti
 /// medial axis.
 fn widest(lattice: &Lattice, free: &FreeSpace, start: Cell, reach: f64) -> Cell {
     let near = Geodesic::new(lattice, start, reach, |cell| free.contains(cell));
-    let cells = lattice.cells().filter(|&cell| near.distance(cell).is_some());
     let room = |cell: Cell| free.field().clearance(cell);
+    let cells = near.reached().iter().copied();
     cells.reduce(|best, cell| if room(cell) > room(best) { cell } else { best }).unwrap_or(start)
 }

@@ -23,22 +23,31 @@ pub struct WayOut {
     pub(super) axis: Axis,
 }
 
+/// A way out with the cells that it was found by.
+pub(super) struct Way {
+    pub(super) out: WayOut,
+    pub(super) cells: Vec<Cell>,
+}
+
 /// The ways out of the neighborhood that ends `border` metres of travel from where distances are counted.
 pub(super) fn ways_out(
     lattice: &Lattice,
     distances: &Geodesic,
     border: f64,
     options: &PlaceOptions,
-) -> Vec<WayOut> {
+) -> Vec<Way> {
     let end = border + options.depth;
     let leads_on = |group: &Vec<Cell>| {
         group.iter().any(|&cell| distances.distance(cell).is_some_and(|distance| distance > end - SLACK))
     };
     let groups = distances.groups(border..end);
     groups
-        .iter()
-        .filter(|group| leads_on(group))
-        .filter_map(|group| way(lattice, distances, border, group, options.narrowest_way))
+        .into_iter()
+        .filter(leads_on)
+        .filter_map(|cells| {
+            let out = way(lattice, distances, border, &cells, options.narrowest_way)?;
+            Some(Way { out, cells })
+        })
         .collect()
 }
 

@@ -24,11 +24,11 @@ impl FreeSpace {
         };
         let mut obstacles = Mask::new(&lattice, is_obstacle);
         remove_clutter(&mut obstacles, (parameters.clutter / lattice.resolution()).round() as u32, grid);
-        let field =
-            DistanceField::new(lattice, |index| obstacles.contains(obstacles.position(lattice.cell(index))));
+        let is_obstacle: Vec<bool> = obstacles.in_lattice().collect();
+        let field = DistanceField::new(lattice, |index| is_obstacle[index]);
         let narrowest = parameters.narrowest_passage / 2.0;
         let mask = Mask::new(&lattice, |index| {
-            let clearance = field.clearance(lattice.cell(index));
+            let clearance = field.clearance_at(index);
             clearance > 0.0 && clearance >= narrowest && clearance.is_finite()
         });
         FreeSpace { field, mask }

@@ -54,6 +54,13 @@ pub struct EdgeEnd {
     pub is_last: bool,
 }
 
+impl EdgeEnd {
+    /// The other end of the same edge.
+    pub(super) fn opposite(self) -> Self {
+        EdgeEnd { is_last: !self.is_last, ..self }
+    }
+}
+
 /// Where a line of the axis stops.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
 pub enum Tip {

@@ -35,6 +35,13 @@ impl Mask {
         Cell { column: (position % self.stride) as u32 - 1, row: (position / self.stride) as u32 - 1 }
     }
 
+    /// For each cell of the lattice, in row-major order, whether it is a member.
+    pub(crate) fn in_lattice(&self) -> impl Iterator<Item = bool> + '_ {
+        let rows = self.is_member.chunks_exact(self.stride).skip(1);
+        let rows = rows.take(self.is_member.len() / self.stride - 2);
+        rows.flat_map(|row| row[1..row.len() - 1].iter().copied())
+    }
+
     pub(crate) fn positions(&self) -> usize {
         self.is_member.len()
     }

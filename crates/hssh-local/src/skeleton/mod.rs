@@ -4,6 +4,7 @@
 mod anchor;
 mod free_space;
 mod graph;
+mod lobe;
 mod mask;
 mod parameters;
 mod prune;

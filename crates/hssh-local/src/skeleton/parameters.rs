@@ -26,7 +26,8 @@ pub struct SkeletonParameters {
     /// walls of a corridor are π apart, those of a room's corner π/2. Default: 2π/3.
     pub opening_angle: f64,
     /// Branches are left out if they reach less than this beyond the free disc at the junction they
-    /// start from: niches and doors that are only ajar. Default: 1.0 m.
+    /// start from: niches and doors that are only ajar; also those that lead around an obstacle and back,
+    /// as in a lobby with a table. So are pieces of free space whose whole axis is shorter. Default: 1.0 m.
     pub shallowest_branch: f64,
 }
 

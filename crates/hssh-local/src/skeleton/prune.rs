@@ -1,14 +1,18 @@
 //! Leaves out the branches of a medial axis that lead nowhere.
 
+use std::collections::BTreeSet;
+
 use super::graph::{AxisPoint, EdgeEnd, EdgeId, NodeId, Skeleton, SkeletonEdge, distances, length};
+use super::lobe::Remains;
 use super::parameters::SkeletonParameters;
 
 /// The lengths over which the slope of the clearance is measured, in metres.
 const SLOPE_WINDOW: [f64; 2] = [0.4, 1.0];
 
-/// Takes out branches with a tip, the shallowest first, that reach less than the shallowest branch
-/// allowed beyond the free disc at their junction; two edges that remain at a former junction become
-/// one. The ends of branches that run into a corner of a room are cut off first.
+/// Takes out branches, the shallowest first, that reach less than the shallowest branch allowed beyond the
+/// free disc at their junction: those with a tip, then those that lead into loops and back; two edges that
+/// remain at a former junction become one. The ends of branches that run into a corner of a room are cut
+/// off first. At last, pieces of the axis go that are shorter as a whole.
 pub(super) fn prune(skeleton: Skeleton, parameters: &SkeletonParameters) -> Skeleton {
     let mut pruner = Pruner {
         nodes: skeleton.nodes.iter().map(|node| node.ends.clone()).collect(),
@@ -19,11 +23,11 @@ pub(super) fn prune(skeleton: Skeleton, parameters: &SkeletonParameters) -> Skel
     pruner.join_all();
     for _ in 0..2 {
         pruner.trim_all((parameters.opening_angle / 2.0).cos());
-        while let Some(edge) = pruner.shallowest_branch(parameters.shallowest_branch) {
-            let nodes = pruner.take_out(edge);
-            nodes.into_iter().for_each(|node| pruner.join_at(node));
+        while let Some(branch) = pruner.shallowest_branch(parameters.shallowest_branch) {
+            pruner.take_out(branch);
         }
     }
+    pruner.take_out(pruner.small_pieces(parameters.shallowest_branch));
     pruner.rest()
 }
 
@@ -38,17 +42,49 @@ struct Pruner {
 }
 
 impl Pruner {
-    fn shallowest_branch(&self, shallowest: f64) -> Option<EdgeId> {
-        let mut best = None;
-        let mut least = shallowest;
-        for (index, edge) in self.edges.iter().enumerate() {
-            if let Some(depth) = edge.as_ref().and_then(|edge| self.depth(edge, self.lengths[index]))
-                && depth < least
-            {
-                (best, least) = (Some(EdgeId(index as u32)), depth);
+    /// The edges of the shallowest branch that is shallower than allowed.
+    fn shallowest_branch(&self, shallowest: f64) -> Option<BTreeSet<EdgeId>> {
+        let with_tip = self.edges.iter().enumerate().filter_map(|(index, edge)| {
+            let depth = self.depth(edge.as_ref()?, self.lengths[index])?;
+            (depth < shallowest).then(|| (depth, BTreeSet::from([EdgeId(index as u32)])))
+        });
+        let with_tip = with_tip.min_by(|a, b| a.0.total_cmp(&b.0));
+        let lobe = || self.shallow_lobes(shallowest).min_by(|a, b| a.0.total_cmp(&b.0));
+        with_tip.or_else(lobe).map(|(_, edges)| edges)
+    }
+
+    /// Lobes with loops that are shallower than allowed, with how far they reach beyond the free disc at
+    /// their junction.
+    fn shallow_lobes(&self, shallowest: f64) -> impl Iterator<Item = (f64, BTreeSet<EdgeId>)> {
+        let remains = Remains { nodes: &self.nodes, edges: &self.edges, lengths: &self.lengths };
+        let junctions = (0..self.nodes.len()).filter(|&node| self.nodes[node].len() > 2);
+        let ends = junctions.flat_map(|node| self.nodes[node].iter().map(move |&end| (node, end)));
+        ends.filter_map(move |(node, end)| {
+            let room = self.skeleton.nodes[node].at.clearance;
+            let lobe = remains.lobe(end, shallowest + room)?;
+            (lobe.edges.len() > 1).then_some((lobe.reach - room, lobe.edges))
+        })
+    }
+
+    /// The edges of all pieces of the axis that are shorter than allowed.
+    fn small_pieces(&self, shortest: f64) -> BTreeSet<EdgeId> {
+        let mut small = BTreeSet::new();
+        let mut is_seen = vec![false; self.nodes.len()];
+        for start in 0..self.nodes.len() {
+            let (mut piece, mut waiting) = (BTreeSet::new(), vec![NodeId(start as u32)]);
+            while let Some(node) = waiting.pop() {
+                if !std::mem::replace(&mut is_seen[node.index()], true) {
+                    let edges = self.nodes[node.index()].iter().map(|end| end.edge);
+                    piece.extend(edges.clone());
+                    let edges = edges.filter_map(|edge| self.edges[edge.index()].as_ref());
+                    waiting.extend(edges.flat_map(|edge| edge.nodes));
+                }
+            }
+            if piece.iter().map(|edge| self.lengths[edge.index()]).sum::<f64>() < shortest {
+                small.extend(piece);
             }
         }
-        best
+        small
     }
 
     /// Cuts off the ends of branches along which the clearance grows inwards by at least `slope`: they
@@ -82,12 +118,17 @@ impl Pruner {
         Some(if is_inside { 0.0 } else { length + tip.clearance - junction.clearance })
     }
 
-    fn take_out(&mut self, edge: EdgeId) -> Vec<NodeId> {
-        let nodes = self.edges[edge.index()].take().map_or(Vec::new(), |edge| edge.nodes.to_vec());
-        for node in &nodes {
-            self.nodes[node.index()].retain(|end| end.edge != edge);
+    /// Takes out edges, and joins what remains where they were.
+    fn take_out(&mut self, edges: BTreeSet<EdgeId>) {
+        let mut touched = BTreeSet::new();
+        for id in edges {
+            let Some(edge) = self.edges[id.index()].take() else { continue };
+            for node in edge.nodes {
+                self.nodes[node.index()].retain(|end| end.edge != id);
+                touched.insert(node);
+            }
         }
-        nodes
+        touched.into_iter().for_each(|node| self.join_at(node));
     }
 
     fn join_all(&mut self) {

@@ -156,3 +156,42 @@ fn a_ring_is_one_loop_and_clutter_does_not_matter() {
     assert_eq!((skeleton.nodes.len(), skeleton.edges.len()), (1, 1));
     assert_eq!(skeleton.edges[0].nodes[0], skeleton.edges[0].nodes[1]);
 }
+
+/// Free boxes (low corner, high corner, in metres) in solid rock, with solid boxes in them again.
+fn dug(free: &[[[f64; 2]; 2]], solid: &[[[f64; 2]; 2]]) -> OccupancyGrid {
+    let lattice = Lattice::new(150, 60, 0.2, [0.0, 0.0]).unwrap();
+    let cells = lattice.cells().map(|cell| {
+        let [x, y] = lattice.center(cell);
+        let is_in = |boxes: &[[[f64; 2]; 2]]| {
+            boxes.iter().any(|[low, high]| low[0] < x && x < high[0] && low[1] < y && y < high[1])
+        };
+        if is_in(free) && !is_in(solid) { Occupancy::Free } else { Occupancy::Occupied }
+    });
+    OccupancyGrid::new(lattice, cells.collect()).unwrap()
+}
+
+/// A corridor through the whole grid, and above it a lobby around a table: a branch that leads some 9 m on, into a
+/// loop and back.
+#[test]
+fn a_lobby_around_a_table_is_a_branch_and_as_deep_as_its_far_side() {
+    let corridor = [[0.0, 1.0], [30.0, 3.0]];
+    let (door, lobby) = ([[14.0, 2.0], [16.0, 5.0]], [[12.0, 4.4], [18.0, 10.4]]);
+    let grid = dug(&[corridor, door, lobby], &[[[14.0, 6.4], [16.0, 8.4]]]);
+    let edges = |shallowest_branch| {
+        let parameters = SkeletonParameters { shallowest_branch, ..SkeletonParameters::default() };
+        Skeleton::new(&grid, &FreeSpace::new(&grid, &parameters), &parameters).edges.len()
+    };
+    assert_eq!((edges(1.0), edges(8.0)), (4, 4));
+    // Some 3 m in, and 15 m around the table, less 1 m of room at the junction: 9.3 m.
+    assert_eq!(edges(10.0), 1, "only the corridor is left");
+}
+
+#[test]
+fn a_piece_of_free_space_that_is_too_small_has_no_axis() {
+    let grid = dug(&[[[0.0, 1.0], [30.0, 3.0]], [[4.0, 6.0], [10.0, 8.0]]], &[]);
+    let pieces = |shallowest_branch| {
+        let parameters = SkeletonParameters { shallowest_branch, ..SkeletonParameters::default() };
+        Skeleton::new(&grid, &FreeSpace::new(&grid, &parameters), &parameters).edges.len()
+    };
+    assert_eq!((pieces(1.0), pieces(8.0)), (2, 1));
+}

@@ -93,7 +93,7 @@ fn viewpoints(track: &Track, look_distance: f64) -> Vec<usize> {
 /// A sighting of a place from where a scan was taken, if there is one.
 fn look(map: &LocalMap, viewpoint: usize, track: &Track, options: &SurveyOptions) -> Option<Stay> {
     let at = track.scans[viewpoint].pose.translation();
-    let grid = map.classify().window([at.x, at.y], options.window)?;
+    let grid = map.window(at, options.window)?;
     let sighting = sight(&grid, at, &options.place).filter(|sighting| sighting.is_place)?;
     Some(Stay::new(viewpoint, at, sighting, grid))
 }

@@ -27,6 +27,19 @@ pub struct SurveyOptions {
     pub place_fix: (f64, f64),
 }
 
+impl SurveyOptions {
+    /// The same options for ways out that lead `depth` metres on, with windows and local maps as large, and hindsight
+    /// as long, as it takes to see so far.
+    #[must_use]
+    pub fn with_depth(mut self, depth: f64) -> Self {
+        self.place.depth = depth;
+        self.hindsight = depth;
+        self.window = 2.0 * depth + 12.0;
+        self.local_map.side = self.window + 2.0 * depth + 4.0;
+        self
+    }
+}
+
 impl Default for SurveyOptions {
     fn default() -> Self {
         SurveyOptions {

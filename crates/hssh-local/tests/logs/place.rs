@@ -77,3 +77,37 @@ fn in_a_wall_there_is_nothing_to_see() {
     let grid = crossing(&[(0.0, 12.5)]);
     assert_eq!(sight(&grid, vector![-9.0, 9.0], &PlaceOptions::default()), None);
 }
+
+#[test]
+fn a_place_has_one_center_from_wherever_it_is_seen() {
+    for ways in [vec![(10.0, 13.0), (100.0, 13.0)], vec![(10.0, 13.0), (100.0, 13.0), (190.0, 13.0)]] {
+        for bearing in [10.0, 100.0] {
+            for distance in [1.0, 1.8, 2.6] {
+                let (sin, cos) = f64::to_radians(bearing).sin_cos();
+                let sighting = seen(&ways, [distance * cos, distance * sin]);
+                assert!(
+                    sighting.is_place && sighting.center.norm() < 0.4,
+                    "{distance} m: {}",
+                    sighting.center
+                );
+            }
+        }
+    }
+}
+
+#[test]
+fn a_dead_end_is_a_place_where_its_walls_were_seen() {
+    let sighting = seen(&[(30.0, 13.0)], [1.0, 0.6]);
+    assert!(sighting.is_place && sighting.center.norm() < 0.4, "{}", sighting.center);
+    assert_eq!(bearings(&sighting, 30.0).len(), 1);
+    // From afar it is none yet.
+    assert!(!seen(&[(30.0, 13.0)], [5.2, 3.0]).is_place);
+    // Where the wall at the end was not seen, nobody knows whether the corridor goes on.
+    let mut grid = crossing(&[(0.0, 13.0)]);
+    for cell in grid.lattice().cells().collect::<Vec<_>>() {
+        if grid.lattice().center(cell)[0] < -0.5 {
+            grid.set(cell, Occupancy::Unknown);
+        }
+    }
+    assert!(!sight(&grid, vector![1.0, 0.0], &PlaceOptions::default()).unwrap().is_place);
+}

@@ -88,6 +88,20 @@ fn a_corridor_has_no_places() {
     assert!(error.to_string().starts_with("no place was found along 10 m of way"), "{error}");
 }
 
+/// A corridor with a spur of 13 m, into which the robot goes and comes back.
+#[test]
+fn a_dead_end_is_a_place_between_two_visits_to_its_crossing() {
+    let walls = around(&[[[-20.0, -1.0], [25.0, 1.0]], [[-1.0, -1.0], [1.0, 13.0]]]);
+    let poses = drive(&[[-14.0, 0.0], [0.0, 0.0], [0.0, 11.5], [0.0, 0.0], [14.0, 0.0]], 0.5);
+    let survey = surveyed(&log(&walls, &poses, &poses)).unwrap();
+    let ways: Vec<usize> = survey.visits.iter().map(|visit| visit.star.gateways().count()).collect();
+    assert_eq!(ways, [3, 1, 3]);
+    let dead_end = &survey.visits[1];
+    assert!(dead_end.entry.is_some() && dead_end.entry == dead_end.exit);
+    let off = [dead_end.frame.x - 14.0, dead_end.frame.y - 12.0];
+    assert!(off[0].hypot(off[1]) < 0.5, "{:?}", dead_end.frame);
+}
+
 /// The ACES building: all fifteen visits, every star with the right number of ways out, nothing else.
 #[test]
 fn the_log_of_the_aces_building_gives_its_visits() {
