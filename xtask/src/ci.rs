@@ -19,7 +19,7 @@ pub(crate) fn run() -> Result<(), Box<dyn Error>> {
         Ok(cmd!(shell, "cargo doc --workspace --no-deps").env("RUSTDOCFLAGS", "-Dwarnings").run()?)
     })?;
     step("experiments", experiments)?;
-    step("robot", || robot::run(&flags::Robot { seeds: None, threads: Some(0), check: true }))?;
+    step("robot", || robot::run(&flags::Robot { data: None, seeds: None, threads: Some(0), check: true }))?;
     println!("== everything passed");
     Ok(())
 }

@@ -83,8 +83,11 @@ xflags::xflags! {
             /// The folder that contains `logs/` and `gridmap/`.
             required data: PathBuf
         }
-        /// Drives a simulated robot through six floors: control level, survey and map against the truth.
+        /// Drives a simulated robot through seven built floors and a real one: control level, survey and map against
+        /// the truth.
         cmd robot {
+            /// The folder that contains `gridmap/` and `logs/`; the environment variable HSSH_DATA if not given.
+            optional data: PathBuf
             /// Drives of each row; 3 if not given.
             optional --seeds count: usize
             /// Drives at once, 0 for one per core; 1 if not given.

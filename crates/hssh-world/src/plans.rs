@@ -1,4 +1,4 @@
-//! Six floors with loops: worlds that are fit to be built, driven through and mapped again.
+//! Seven floors with loops: worlds that are fit to be built, driven through and mapped again.
 
 use crate::geometry::Point;
 use crate::grid::grid;
@@ -24,9 +24,10 @@ const WIDTH: f64 = 2.4;
 const OFFICE: u64 = 65;
 const RANDOM: u64 = 142_781;
 
-/// A ring of four corners, a figure eight, grids of three and four rows, an office floor, and random corridors.
+/// A ring of four corners, the same with two spurs, a figure eight, grids of three and four rows, an office floor, and
+/// random corridors.
 ///
-/// Every place is a crossing or a clear turn, no corridor is a dead end, and places are some 11 m apart or more.
+/// Every place is a crossing, a clear turn or a dead end, and places are some 11 m apart or more.
 #[must_use]
 pub fn floors() -> Vec<Floor> {
     let square = |rows| grid(rows, rows, 14.0).expect("a grid with rows and columns is a world");
@@ -37,6 +38,21 @@ pub fn floors() -> Vec<Floor> {
             network(
                 &[(0.0, 0.0), (26.0, 0.0), (26.0, -15.0), (0.0, -15.0)],
                 &[[0, 1], [1, 2], [2, 3], [3, 0]],
+            ),
+        ),
+        (
+            "spurs",
+            network(
+                &[
+                    (0.0, 0.0),
+                    (13.0, 0.0),
+                    (26.0, 0.0),
+                    (26.0, -15.0),
+                    (0.0, -15.0),
+                    (13.0, 14.0),
+                    (40.0, -15.0),
+                ],
+                &[[0, 1], [1, 2], [2, 3], [3, 4], [4, 0], [1, 5], [3, 6]],
             ),
         ),
         ("figure-eight", figure_eight()),
@@ -69,7 +85,7 @@ fn network(points: &[(f64, f64)], corridors: &[[usize; 2]]) -> World {
         streets: corridors.iter().map(street).collect(),
     }
     .to_world()
-    .expect("every corner has two corridors that leave it by different bearings")
+    .expect("the corridors of a corner leave it by different bearings")
 }
 
 #[cfg(test)]
@@ -91,8 +107,14 @@ mod tests {
             .map(|floor| (floor.name, floor.world.places().len(), floor.world.links().len()))
             .collect();
         assert_eq!(
-            sizes[..4],
-            [("ring", 4, 4), ("figure-eight", 7, 8), ("grid-3x3", 9, 12), ("grid-4x4", 16, 24)]
+            sizes[..5],
+            [
+                ("ring", 4, 4),
+                ("spurs", 7, 7),
+                ("figure-eight", 7, 8),
+                ("grid-3x3", 9, 12),
+                ("grid-4x4", 16, 24)
+            ]
         );
         for floor in floors {
             assert!(is_fit(&floor.world), "{}", floor.name);
@@ -121,7 +143,7 @@ mod tests {
         points.into_iter().all(|point| here.distance_to(point) >= APART)
     }
 
-    /// Whether a place has a choice or a clear turn, ways that are well apart, and each two of them either
+    /// Whether a place has a choice, a clear turn or an end, ways that are well apart, and each two of them either
     /// continue one another or clearly do not.
     fn is_clear_cut(world: &World, place: PlaceId) -> bool {
         let bearings: Vec<f64> = world
@@ -132,6 +154,6 @@ mod tests {
             .flat_map(|a| (0..a).map(move |b| (a, b)))
             .map(|(a, b)| (PI - wrap(bearings[a] - bearings[b]).abs()).to_degrees());
         let is_clear = |turn: f64| (turn < 20.0 && bearings.len() > 2) || (50.0..130.0).contains(&turn);
-        bearings.len() >= 2 && turns.all(is_clear)
+        !bearings.is_empty() && turns.all(is_clear)
     }
 }

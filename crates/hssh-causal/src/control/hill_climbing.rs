@@ -1,7 +1,9 @@
-//! Hill-climbing: to the point of a place that is farthest from all that is around (section 2.1.1).
+//! Hill-climbing: to the center of a place that the local model shows, or to the point that is farthest from all
+//! that is around (section 2.1.1).
 
 use std::f64::consts::TAU;
 
+use super::trajectory::toward;
 use super::view::View;
 use super::{Command, Handling, Percept};
 
@@ -14,10 +16,16 @@ const LAST_STEP: f64 = 0.02;
 /// The least speed of an approach, metres per second.
 const CREEP: f64 = 0.05;
 
-/// Where the distinctiveness measure, the distance to the nearest obstacle, is greatest: there a robot is as
-/// far from one obstacle as from others on all sides. In the robot's frame.
+/// Where the distinctiveness measure is greatest, in the robot's frame: at the center of the place that the local
+/// perceptual model shows, if the robot sees that there is room for it (section 2.2: such a model saves the robot
+/// the search). Else the measure is the distance to the nearest obstacle, and at its greatest a robot is as far from
+/// one obstacle as from others on all sides.
 pub(super) fn summit(percept: &Percept, handling: &Handling) -> [f64; 2] {
     let view = View::new(percept);
+    let center = percept.neighborhood.as_ref().and_then(|here| here.center);
+    if let Some(center) = center.filter(|&at| view.clearance_at(at) > handling.radius + handling.margin) {
+        return center;
+    }
     let circles = (1..=(handling.climb / SURVEY_STEP) as u32).map(|k| f64::from(k) * SURVEY_STEP);
     let within_reach = circles.flat_map(|radius| around([0.0, 0.0], radius));
     let (mut height, mut at) = highest(&view, std::iter::once([0.0, 0.0]).chain(within_reach));
@@ -47,14 +55,17 @@ fn highest(view: &View, points: impl Iterator<Item = [f64; 2]>) -> (f64, [f64; 2
     heights.fold((0.0, [0.0, 0.0]), |best, other| if other.0 > best.0 { other } else { best })
 }
 
-/// Goes to the summit, and ever slower.
+/// Goes to the summit, around what is in the way, and ever slower.
 pub(super) fn climb(percept: &Percept, handling: &Handling) -> Command {
     let [x, y] = summit(percept, handling);
-    let distance = x.hypot(y);
+    let (distance, bearing) = (x.hypot(y), y.atan2(x));
     if distance <= handling.centered {
         return Command::REST;
     }
     let room = percept.ahead(handling.radius + handling.margin) - handling.radius - handling.margin;
+    if bearing.abs() <= handling.widest_curve && room < handling.look_ahead.min(distance) {
+        return toward(percept, bearing, handling);
+    }
     let speed = handling.speed.min(distance).min(room);
     Command::toward([x, y], speed.max(CREEP), handling)
 }

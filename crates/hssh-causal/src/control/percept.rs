@@ -19,6 +19,8 @@ pub struct Vicinity {
     /// Tells this neighborhood from the one before and the one after: neighborhoods are counted as the
     /// robot comes into them.
     pub number: u32,
+    /// Its center, where it is known.
+    pub center: Option<[f64; 2]>,
     /// The ways out.
     pub gateways: Vec<Exit>,
 }

@@ -41,7 +41,7 @@ fn vicinity(x: f64, y: f64, heading: f64) -> Vicinity {
             width: 2.0,
         }
     };
-    Vicinity { number: 0, gateways: (0..4).map(exit).collect() }
+    Vicinity { number: 0, center: None, gateways: (0..4).map(exit).collect() }
 }
 
 fn wrapped(angle: f64) -> f64 {
@@ -106,6 +106,25 @@ proptest! {
         prop_assert!(pose[0].hypot(pose[1]) > 2.5, "{pose:?} is still here");
         prop_assert!(wrapped(out - gateway as f64 * PI / 2.0).abs() < 0.1, "{pose:?} is not beyond {gateway}");
     }
+}
+
+/// Where the local model knows the center, the robot climbs to it, though the middle of the crossing has more room.
+#[test]
+fn hill_climbing_ends_at_the_center_that_is_known() {
+    let handling = Handling::default();
+    let mut pose = [-1.5, 0.2, 0.4];
+    for _ in 0..300 {
+        let mut percept = crossing(pose[0], pose[1], pose[2]);
+        let (sin, cos) = pose[2].sin_cos();
+        let (dx, dy) = (0.3 - pose[0], -0.3 - pose[1]);
+        let center = [cos * dx + sin * dy, cos * dy - sin * dx];
+        percept.neighborhood = percept.neighborhood.map(|here| Vicinity { center: Some(center), ..here });
+        if ControlLaw::HillClimb.is_finished(&percept, &handling) {
+            break;
+        }
+        pose = moved(pose, ControlLaw::HillClimb.command(&percept, &handling));
+    }
+    assert!((pose[0] - 0.3).hypot(pose[1] + 0.3) < 0.15, "{pose:?}");
 }
 
 #[test]

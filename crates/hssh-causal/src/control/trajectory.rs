@@ -7,8 +7,9 @@ use super::{Command, Exit, Handling, Percept};
 const DIRECTIONS: i32 = 24;
 /// What a radian of turning costs, in metres of clearance: enough to go straight on where all is alike.
 const TURNING: f64 = 0.05;
-/// More room than this part of half a corridor's width attracts nobody: openings along the way are passed by.
-const ENOUGH_ROOM: f64 = 1.15;
+
+/// How far to either side of where it wants to go the robot looks for room, in radians.
+const AROUND_CORNERS: f64 = 1.0;
 
 /// Goes on along the ridge of the clearance: the midline, which is as far from what is at the left as from
 /// what is at the right.
@@ -21,9 +22,15 @@ pub(super) fn leave(percept: &Percept, gateway: &Exit, handling: &Handling) -> C
     let [x, y] = gateway.position;
     let beyond = -(x * gateway.bearing.cos() + y * gateway.bearing.sin());
     if beyond > -handling.look_ahead / 2.0 {
-        return along(percept, gateway.bearing, 30_f64.to_radians(), gateway.width, handling);
+        return along(percept, gateway.bearing, AROUND_CORNERS, gateway.width, handling);
     }
-    along(percept, y.atan2(x), 20_f64.to_radians(), gateway.width, handling)
+    along(percept, y.atan2(x), AROUND_CORNERS, gateway.width, handling)
+}
+
+/// Goes about in a direction, around what is in the way.
+pub(super) fn toward(percept: &Percept, bearing: f64, handling: &Handling) -> Command {
+    let width = 2.0 * (handling.radius + handling.margin);
+    along(percept, bearing, AROUND_CORNERS, width, handling)
 }
 
 /// Whether there is no room ahead, sixty degrees to either side.
@@ -42,7 +49,8 @@ fn along(percept: &Percept, bearing: f64, arc: f64, width: f64, handling: &Handl
         return Command::face(bearing, handling);
     }
     let view = View::new(percept);
-    let enough = ENOUGH_ROOM * width / 2.0;
+    // More room than in the middle of the corridor attracts nobody: openings along the way are passed by.
+    let enough = width / 2.0;
     let point =
         |direction: f64| [handling.look_ahead * direction.cos(), handling.look_ahead * direction.sin()];
     let merit = |direction: f64| {

@@ -3,7 +3,7 @@
 use std::fmt;
 
 use hssh_causal::control::ControlLaw;
-use hssh_local::{OccupancyGrid, PlaceGraph, PlaceGraphError, PlaceNumber};
+use hssh_local::{LatticeError, Occupancy, OccupancyGrid, PlaceGraph, PlaceGraphError, PlaceNumber};
 use hssh_metrics::Pose;
 use hssh_topology::Olp;
 
@@ -21,6 +21,8 @@ pub struct Drive {
     pub stops: Vec<Stop>,
     /// How it ended.
     pub ending: Ending,
+    /// The map as the robot met it, without clutter.
+    pub grid: OccupancyGrid,
     /// The true places: those of the whole map.
     pub graph: PlaceGraph,
     /// From this range on nothing came back, in metres.
@@ -76,6 +78,9 @@ pub enum DriveError {
     /// No places to go to.
     #[error(transparent)]
     Map(#[from] PlaceGraphError),
+    /// The options describe no local map.
+    #[error("the robot cannot keep a local map: {0}")]
+    LocalMap(#[from] LatticeError),
     /// Free space without places.
     #[error("the map has free space but no place: nowhere is there a crossing, a corner or a dead end")]
     NoPlaces,
@@ -127,7 +132,8 @@ impl fmt::Display for Ending {
 /// Drives a robot through a grid, from `start` (metres; the center of the first place if not given) until the
 /// strategy is done or the number of travels is made. The same arguments give the same drive.
 ///
-/// At its start and at its end the robot turns around once, so that the first and the last place are seen whole.
+/// What [`RobotOptions::places`] calls clutter is in nobody's way: maps that were drawn by a laser are full of
+/// specks. Unknown cells are walls.
 ///
 /// # Errors
 /// If the map has no places, there is no room at the start, or the strategy names a place that is not there.
@@ -146,11 +152,22 @@ pub fn drive(
         return Err(DriveError::NoSuchPlace { asked, last: graph.places.len() - 1 });
     }
     let start = start.unwrap_or(first.center);
-    check_start(grid, &graph, start, options)?;
-    let mut run = Run::new(grid, &graph, start, options, seed);
+    let grid = without_clutter(&graph);
+    check_start(&grid, &graph, start, options)?;
+    let mut run = Run::new(&grid, &graph, start, options, seed)?;
     let ending = run.travel(strategy).err().unwrap_or(Ending::Done);
     let (moments, stops) = run.into_log();
-    Ok(Drive { moments, stops, ending, graph, max_range: options.laser.max_range })
+    Ok(Drive { moments, stops, ending, grid, graph, max_range: options.laser.max_range })
+}
+
+/// The grid as the places of the map were found in it: free, or occupied.
+fn without_clutter(graph: &PlaceGraph) -> OccupancyGrid {
+    let field = graph.free.field();
+    let mut grid = OccupancyGrid::filled(*field.lattice(), Occupancy::Free);
+    for cell in field.lattice().cells().filter(|&cell| field.squared_cells(cell) == Some(0)) {
+        grid.set(cell, Occupancy::Occupied);
+    }
+    grid
 }
 
 /// Whether the robot fits where it starts.

@@ -2,7 +2,7 @@
 
 use std::f64::consts::TAU;
 
-use hssh_local::{Cell, Occupancy, OccupancyGrid};
+use hssh_local::{Cell, Occupancy, OccupancyGrid, Scan};
 use hssh_metrics::Pose;
 use rand::RngExt;
 use rand_chacha::ChaCha8Rng;
@@ -47,9 +47,17 @@ impl Laser {
     }
 
     /// The scan that is part of a sweep: its front half, from right to left.
-    pub(super) fn scan(&self, sweep: &[f64]) -> Vec<f64> {
-        let right = sweep.len() - self.steps() / 2;
-        (0..self.beams).map(|beam| sweep[(right + beam) % sweep.len()]).collect()
+    pub(super) fn front(&self, sweep: &[f64]) -> Scan {
+        self.half(sweep, sweep.len() - self.steps() / 2)
+    }
+
+    /// The other half, as if the robot looked the other way.
+    pub(super) fn back(&self, sweep: &[f64]) -> Scan {
+        self.half(sweep, self.steps() / 2)
+    }
+
+    fn half(&self, sweep: &[f64], first: usize) -> Scan {
+        Scan { ranges: (0..self.beams).map(|beam| sweep[(first + beam) % sweep.len()]).collect() }
     }
 
     /// Steps from beam to beam in half a turn.
@@ -93,7 +101,7 @@ fn distance_along(grid: &OccupancyGrid, from: [f64; 2], bearing: f64, reach: f64
 #[cfg(test)]
 mod tests {
     use super::*;
-    use hssh_local::{Lattice, Scan};
+    use hssh_local::Lattice;
     use rand::SeedableRng;
 
     /// A room of 8 m by 6 m whose middle is the origin.
@@ -129,10 +137,13 @@ mod tests {
         for beams in [180, 181, 361] {
             let laser = Laser { beams, noise: 0.0, dropouts: 0.0, ..Laser::default() };
             let sweep = laser.sweep(&room(), Pose::new(0.0, 0.0, 0.0), &mut ChaCha8Rng::seed_from_u64(0));
-            let scan = Scan { ranges: laser.scan(&sweep) };
+            let scan = laser.front(&sweep);
             for (_, [[x, y]]) in scan.hits(50.0).map(|(beam, point)| (beam, point.data.0)) {
                 assert!((x - 4.0).abs() < 1e-6 || (y.abs() - 3.0).abs() < 1e-6, "({x}, {y}) is on no wall");
             }
+            // From the middle of the room it looks the same behind.
+            let back = laser.back(&sweep);
+            assert!(scan.ranges.iter().zip(&back.ranges).all(|(front, back)| (front - back).abs() < 1e-6));
         }
     }
 

@@ -1,7 +1,7 @@
 //! The numbers that a simulated robot goes by.
 
 use hssh_causal::control::Handling;
-use hssh_local::PlaceParameters;
+use hssh_local::{PlaceOptions, PlaceParameters, SurveyOptions};
 
 use super::laser::Laser;
 use super::odometer::Odometer;
@@ -23,11 +23,11 @@ pub struct RobotOptions {
     pub scan_distance: f64,
     /// …or radians of turning.
     pub scan_turn: f64,
-    /// It looks for a place-neighborhood every so many metres…
+    /// It looks for a place-neighborhood every so many metres.
     pub look_distance: f64,
-    /// …in a local map with sides of this many metres.
-    pub window: f64,
-    /// How it reads gateways from there.
+    /// How it makes its local map, and what it takes for a place.
+    pub outlook: SurveyOptions,
+    /// What the places of the whole map are, which the robot does not see: its [`Strategy`](super::Strategy) does.
     pub places: PlaceParameters,
     /// A control law that does not end within so many seconds has failed.
     pub patience: f64,
@@ -35,6 +35,8 @@ pub struct RobotOptions {
 
 impl Default for RobotOptions {
     fn default() -> Self {
+        // A robot centers in a place when it is in it, and not when it sees it coming.
+        let place = PlaceOptions { arrival: 1.5, ..PlaceOptions::default() };
         RobotOptions {
             handling: Handling::default(),
             laser: Laser::default(),
@@ -44,7 +46,7 @@ impl Default for RobotOptions {
             scan_distance: 0.2,
             scan_turn: 0.2,
             look_distance: 0.4,
-            window: 14.0,
+            outlook: SurveyOptions { place, ..SurveyOptions::default() },
             places: PlaceParameters::default(),
             patience: 120.0,
         }

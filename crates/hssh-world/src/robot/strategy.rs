@@ -1,6 +1,6 @@
 //! Which gateway the robot takes: somebody with the whole map decides.
 
-use std::collections::{BTreeSet, VecDeque};
+use std::collections::{BTreeMap, BTreeSet, VecDeque};
 
 use hssh_local::{PlaceGraph, PlaceNumber};
 use hssh_topology::Olp;
@@ -10,7 +10,8 @@ use rand_chacha::ChaCha8Rng;
 /// Which gateway the robot takes at each place.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub enum Strategy {
-    /// A way that was not travelled yet, else the fewest travels to one; it ends when all were travelled.
+    /// A way that was not travelled yet, else the fewest travels to one; it ends when all were travelled but those
+    /// that led elsewhere than the map says, twice.
     Cover,
     /// Any way but back, unless there is no other.
     Wander,
@@ -18,9 +19,14 @@ pub enum Strategy {
     Visit(Vec<PlaceNumber>),
 }
 
+/// A connection that led elsewhere so often is taken for none.
+const MOST_MISSES: usize = 2;
+
 /// A gateway by which the robot should leave, and where it should come out.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(super) struct Plan {
+    /// The connection, by its number in the map.
+    pub(super) way: usize,
     pub(super) exit: Olp,
     pub(super) to: (PlaceNumber, Olp),
 }
@@ -31,32 +37,36 @@ pub(super) struct Guide<'a> {
     strategy: Strategy,
     /// The connections that were travelled.
     travelled: BTreeSet<usize>,
+    /// How often connections led elsewhere.
+    missed: BTreeMap<usize, usize>,
     /// How many places of the list were visited.
     visited: usize,
 }
 
 impl<'a> Guide<'a> {
     pub(super) fn new(graph: &'a PlaceGraph, strategy: Strategy) -> Self {
-        Guide { graph, strategy, travelled: BTreeSet::new(), visited: 0 }
+        Guide { graph, strategy, travelled: BTreeSet::new(), missed: BTreeMap::new(), visited: 0 }
     }
 
-    /// The way on from a place that the robot entered by `entry`; none if it is done, or if no way leads on.
+    /// The way on from a place that the robot entered by `entry`, of those whose exits it sees; none if it is
+    /// done, or if no way leads on.
     pub(super) fn next(
         &mut self,
         here: PlaceNumber,
         entry: Option<Olp>,
+        is_seen: impl Fn(Olp) -> bool,
         random: &mut ChaCha8Rng,
     ) -> Option<Plan> {
-        let ways: Vec<(usize, Plan)> = self.ways(here).collect();
+        let ways: Vec<Plan> = self.ways(here).filter(|plan| is_seen(plan.exit)).collect();
         let chosen = match &self.strategy {
             Strategy::Cover => {
-                let new: Vec<_> =
-                    ways.iter().filter(|(way, _)| !self.travelled.contains(way)).copied().collect();
-                new.choose(random).copied().or_else(|| self.toward_new(here))
+                let new: Vec<Plan> =
+                    ways.iter().filter(|plan| !self.travelled.contains(&plan.way)).copied().collect();
+                new.choose(random).copied().or_else(|| self.toward_new(here, &ways))
             }
             Strategy::Wander => {
-                let onward: Vec<_> =
-                    ways.iter().filter(|(_, plan)| Some(plan.exit) != entry).copied().collect();
+                let onward: Vec<Plan> =
+                    ways.iter().filter(|plan| Some(plan.exit) != entry).copied().collect();
                 onward.choose(random).or(ways.first()).copied()
             }
             Strategy::Visit(list) => {
@@ -64,40 +74,47 @@ impl<'a> Guide<'a> {
                     self.visited += 1;
                 }
                 let next = list.get(self.visited)?;
-                ways.iter().find(|(_, plan)| plan.to.0 == *next).copied()
+                ways.iter().find(|plan| plan.to.0 == *next).copied()
             }
         };
-        let (way, plan) = chosen?;
-        self.travelled.insert(way);
-        Some(plan)
+        self.travelled.extend(chosen.map(|plan| plan.way));
+        chosen
     }
 
-    /// Whether the strategy has come to its end.
-    pub(super) fn is_done(&self) -> bool {
+    /// Takes note that the robot came to another place than it meant to.
+    pub(super) fn miss(&mut self, plan: Plan) {
+        *self.missed.entry(plan.way).or_default() += 1;
+    }
+
+    /// Whether the strategy has come to its end, the robot being here.
+    pub(super) fn is_done(&self, here: PlaceNumber) -> bool {
         match &self.strategy {
-            Strategy::Cover => true, // as far as ways lead
+            Strategy::Cover => self.toward_new(here, &self.ways(here).collect::<Vec<_>>()).is_none(),
             Strategy::Wander => false,
             Strategy::Visit(list) => self.visited >= list.len(),
         }
     }
 
-    /// The connections of a place with their numbers.
-    fn ways(&self, here: PlaceNumber) -> impl Iterator<Item = (usize, Plan)> + '_ {
-        self.graph.connections.iter().enumerate().flat_map(move |(way, connection)| {
+    /// The connections of a place, but for those that led elsewhere too often.
+    fn ways(&self, here: PlaceNumber) -> impl Iterator<Item = Plan> + '_ {
+        let is_there = |way: &usize| self.missed.get(way).is_none_or(|&missed| missed < MOST_MISSES);
+        let connections = self.graph.connections.iter().enumerate().filter(move |(way, _)| is_there(way));
+        connections.flat_map(move |(way, connection)| {
             let [from, to] = connection.ends;
             let both = [(from, to), (to, from)].into_iter().filter(move |(from, _)| from.0 == here);
-            both.map(move |(from, to)| (way, Plan { exit: from.1, to }))
+            both.map(move |(from, to)| Plan { way, exit: from.1, to })
         })
     }
 
-    /// The first travel of the fewest to a place with an untravelled connection.
-    fn toward_new(&self, here: PlaceNumber) -> Option<(usize, Plan)> {
+    /// Of some ways from here the first travel of the fewest to a place with an untravelled connection.
+    fn toward_new(&self, here: PlaceNumber, ways: &[Plan]) -> Option<Plan> {
         let mut reached = BTreeSet::from([here]);
-        let mut waiting: VecDeque<(PlaceNumber, Option<(usize, Plan)>)> = VecDeque::from([(here, None)]);
+        let mut waiting: VecDeque<(PlaceNumber, Option<Plan>)> = VecDeque::from([(here, None)]);
         while let Some((place, first)) = waiting.pop_front() {
-            for (way, plan) in self.ways(place) {
-                let first = first.or(Some((way, plan)));
-                if !self.travelled.contains(&way) {
+            let onward = if place == here { ways.to_vec() } else { self.ways(place).collect() };
+            for plan in onward {
+                let first = first.or(Some(plan));
+                if !self.travelled.contains(&plan.way) {
                     return first;
                 }
                 if reached.insert(plan.to.0) {
