@@ -26,7 +26,15 @@ fn a_log_becomes_the_map_of_its_building() {
     let (grid, svg) = (scratch("aces.yaml"), scratch("aces.svg"));
     let files = ["--grid", &grid.to_string_lossy(), "--svg", &svg.to_string_lossy()].map(str::to_owned);
     let [a, b, c, d] = files.each_ref().map(String::as_str);
-    let output = hssh(&["map", &log, "--planar", "--json", "--likeness", "0.02", a, b, c, d]);
+    let stages = scratch("stages");
+    let folder = stages.to_string_lossy().into_owned();
+    let likeness = ["--likeness", "0.02", "--debug-dir", &folder];
+    let output = hssh(&[&["map", &log, "--planar", "--json"], &likeness[..], &[a, b, c, d]].concat());
+    for stage in
+        ["1-odometry.svg", "2-track.svg", "3-visit-015.svg", "3-visit-015.png", "4-map.svg", "5-building.png"]
+    {
+        assert!(stages.join(stage).is_file(), "{stage}");
+    }
     let answer: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
     let best = &answer["ranking"][0];
     assert_eq!((&answer["proved"], &answer["ties"]), (&true.into(), &1.into()));
@@ -61,7 +69,9 @@ fn what_is_no_usable_log_is_refused() {
 #[test]
 fn grids_come_from_logs_only() {
     let exploration = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../fixtures/aces.ron");
-    let output = hssh(&["map", &exploration.to_string_lossy(), "--grid", "grid.png"]);
-    assert_eq!(output.status.code(), Some(2));
-    assert!(String::from_utf8_lossy(&output.stderr).contains("need a laser log"));
+    for option in [["--grid", "grid.png"], ["--debug-dir", "folder"], ["--shallowest", "5"]] {
+        let output = hssh(&[&["map", &exploration.to_string_lossy()], &option[..]].concat());
+        assert_eq!(output.status.code(), Some(2));
+        assert!(String::from_utf8_lossy(&output.stderr).contains("need a laser log"));
+    }
 }

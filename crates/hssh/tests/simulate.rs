@@ -34,7 +34,10 @@ fn what_cannot_be_driven_through_is_said() {
         assert_eq!(output.status.code(), Some(2));
         String::from_utf8_lossy(&output.stderr).into_owned()
     };
-    assert!(refusal(&[]).contains("give the YAML file of a map, or --floor with one of ring, figure-eight"));
+    assert!(
+        refusal(&[])
+            .contains("give the YAML file of a map, or --floor with one of ring, spurs, figure-eight")
+    );
     assert!(refusal(&["--floor", "nowhere"]).contains("there is no floor `nowhere`"));
     assert!(refusal(&["--floor", "ring", "--start=13,-7"]).contains("it is in a wall or unknown space"));
     assert!(refusal(&["--floor", "ring", "--start=99,0"]).contains("is not on the map, which reaches from"));

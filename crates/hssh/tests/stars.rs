@@ -29,6 +29,19 @@ fn the_floor_has_the_places_it_was_drawn_with() {
     assert_eq!(report["connections"].as_array().unwrap().len(), 12);
 }
 
+/// The room's door hides the room from the corridor; what is narrow elsewhere hides little.
+#[test]
+fn constrictions_say_how_much_they_hide() {
+    let output = stars("floor.yaml", &["--json"]);
+    let report: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
+    let constrictions = report["constrictions"].as_array().unwrap();
+    assert!(!constrictions.is_empty());
+    for found in constrictions {
+        let is_door = found["width"].as_f64() <= Some(1.1) && found["hidden_area"].as_f64() >= Some(20.0);
+        assert_eq!(found["is_door"], is_door, "{found}");
+    }
+}
+
 #[test]
 fn the_rotunda_is_a_t() {
     let output = stars("floor.yaml", &["--at=12.2,8"]);

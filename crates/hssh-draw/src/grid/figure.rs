@@ -3,7 +3,7 @@
 use std::f64::consts::FRAC_PI_2;
 use std::fmt::Write;
 
-use hssh_local::{AxisPoint, Gateway, Lattice, LocalStar, OccupancyGrid, Skeleton};
+use hssh_local::{Gateway, Lattice, LocalStar, OccupancyGrid, Skeleton};
 
 use super::cells::data_uri;
 
@@ -22,9 +22,16 @@ pub struct GridPicture<'a> {
     pub constrictions: &'a [Gateway],
     /// Places: a center in metres, with the star around it.
     pub places: Vec<([f64; 2], &'a LocalStar)>,
+    /// Ways that were travelled, in metres, each with the color of its line.
+    pub ways: Vec<(Vec<[f64; 2]>, &'static str)>,
     /// Where the robot is, in metres.
     pub robot: Option<[f64; 2]>,
 }
+
+/// The color of a way as it was.
+pub const TRUE_WAY: &str = "#0072b2";
+/// The color of a way as odometry told it.
+pub const TOLD_WAY: &str = "#e69f00";
 
 /// Draws a grid as an SVG text of its own: free cells white, unknown ones gray, obstacles black. Each
 /// local path of a star has a color; a path that ends at the place ends in a bar there.
@@ -46,7 +53,11 @@ pub fn draw_grid(grid: &OccupancyGrid, picture: &GridPicture<'_>) -> String {
         data_uri(grid)
     );
     for edge in picture.skeleton.iter().flat_map(|skeleton| &skeleton.edges) {
-        drawing.axis(&edge.points);
+        let points = edge.points.iter().map(|point| point.point);
+        drawing.polyline(points, "#56b4e9", 1.5);
+    }
+    for (way, color) in &picture.ways {
+        drawing.polyline(way.iter().copied(), color, 1.6);
     }
     for gateway in picture.constrictions {
         drawing.line(gateway.line, "#009e73", 2.0);
@@ -74,16 +85,16 @@ impl Drawing {
         [column, f64::from(self.lattice.height()) - row]
     }
 
-    fn axis(&mut self, points: &[AxisPoint]) {
-        let corner = |point: &AxisPoint| {
-            let [x, y] = self.at(point.point);
+    fn polyline(&mut self, points: impl Iterator<Item = [f64; 2]>, color: &str, width: f64) {
+        let corner = |point: [f64; 2]| {
+            let [x, y] = self.at(point);
             format!("{x:.1},{y:.1}")
         };
-        let corners: Vec<String> = points.iter().map(corner).collect();
+        let corners: Vec<String> = points.map(corner).collect();
         let _ = writeln!(
             self.text,
-            r##"<polyline fill="none" stroke="#56b4e9" stroke-width="{:.1}" points="{}"/>"##,
-            1.5 * self.unit,
+            r#"<polyline fill="none" stroke="{color}" stroke-width="{:.1}" points="{}"/>"#,
+            width * self.unit,
             corners.join(" ")
         );
     }

@@ -5,12 +5,10 @@ use std::io::Write;
 use std::path::Path;
 use std::time::Duration;
 
-use hssh_draw::{GridPicture, draw_grid};
-use hssh_local::{
-    LaserLog, LogError, Survey, SurveyError, SurveyOptions, SurveyStage, Visit, survey, write_png,
-};
+use hssh_local::{LaserLog, LogError, Survey, SurveyError, SurveyOptions, SurveyStage, Visit, survey};
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 
+use super::stages::draw_survey;
 use crate::arguments::ExploreOptions;
 use crate::failure::{Failure, Status};
 use crate::output::{counted, print, write_file};
@@ -20,10 +18,10 @@ const MOST_WARNINGS: usize = 10;
 
 pub(crate) fn run(options: &ExploreOptions) -> Result<Status, Failure> {
     let log = read_log(&options.log)?;
-    let survey = surveyed(&options.log, &log)?;
+    let survey = surveyed(&options.log, &log, &options.places.along_logs())?;
     let exploration = survey.exploration().map_err(|error| failed(&options.log, error))?;
     if let Some(folder) = &options.debug_dir {
-        draw_stages(&survey, folder)?;
+        draw_survey(&log, &survey, folder)?;
     }
     match &options.output {
         Some(file) => {
@@ -49,14 +47,14 @@ pub(crate) fn read_log(file: &Path) -> Result<LaserLog, Failure> {
 }
 
 /// The survey of a log, with a progress bar on standard error; warnings go there, too.
-pub(crate) fn surveyed(file: &Path, log: &LaserLog) -> Result<Survey, Failure> {
+pub(crate) fn surveyed(file: &Path, log: &LaserLog, options: &SurveyOptions) -> Result<Survey, Failure> {
     let scans = log.scans.len() as u64;
     let bar = ProgressBar::with_draw_target(Some(2 * scans), ProgressDrawTarget::stderr_with_hz(10));
     if let Ok(style) = ProgressStyle::with_template("{spinner} {msg} {bar:30} {percent}%  {elapsed}") {
         bar.set_style(style);
     }
     bar.enable_steady_tick(Duration::from_millis(100));
-    let found = survey(log, &SurveyOptions::default(), |stage, done| {
+    let found = survey(log, options, |stage, done| {
         let (message, before) = match stage {
             SurveyStage::Tracking => ("matching scans", 0),
             SurveyStage::Looking => ("looking for places", scans),
@@ -120,21 +118,4 @@ fn sentence(number: usize, visit: &Visit) -> String {
         name(visit.entry, "in"),
         name(visit.exit, "out")
     )
-}
-
-/// For each visit its local map as an image, and as a picture with gateways and star.
-fn draw_stages(survey: &Survey, folder: &Path) -> Result<(), Failure> {
-    std::fs::create_dir_all(folder).map_err(|error| Failure::Write { file: folder.to_owned(), error })?;
-    for (number, visit) in survey.visits.iter().enumerate() {
-        let robot = survey.track.scans[visit.reference].pose;
-        let picture = GridPicture {
-            places: vec![([visit.frame.x, visit.frame.y], &visit.star)],
-            robot: Some([robot.x, robot.y]),
-            ..GridPicture::default()
-        };
-        let name = format!("visit-{:03}", number + 1);
-        write_png(&visit.grid, &folder.join(format!("{name}.png")))?;
-        write_file(&folder.join(format!("{name}.svg")), &draw_grid(&visit.grid, &picture))?;
-    }
-    Ok(())
 }

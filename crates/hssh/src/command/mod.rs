@@ -6,4 +6,5 @@ pub(crate) mod explore;
 pub(crate) mod graph;
 pub(crate) mod map;
 pub(crate) mod simulate;
+mod stages;
 pub(crate) mod stars;

@@ -2,9 +2,10 @@
 
 use std::fmt::Write as _;
 
-use hssh_draw::{GridPicture, draw_grid};
-use hssh_local::{Lattice, OccupancyGrid, PlaceNumber, read_map};
-use hssh_world::robot::{Drive, Ending, RobotOptions, Stop, Strategy, drive};
+use hssh_draw::{GridPicture, TOLD_WAY, TRUE_WAY, draw_grid};
+use hssh_local::{OccupancyGrid, PlaceNumber, UnknownSpace, read_map};
+use hssh_metrics::Pose;
+use hssh_world::robot::{Drive, Ending, Moment, RobotOptions, Stop, Strategy, drive};
 use hssh_world::{floor_plan, floors};
 use serde::Serialize;
 
@@ -40,7 +41,7 @@ struct EndTruth {
 struct StopTruth {
     /// Seconds since the start.
     time: f64,
-    pose: hssh_metrics::Pose,
+    pose: Pose,
     place: Option<u32>,
     meant: Option<u32>,
     off_center: Option<f64>,
@@ -49,8 +50,7 @@ struct StopTruth {
 
 pub(crate) fn run(options: &SimulateOptions) -> Result<Status, Failure> {
     let (name, grid) = map(options)?;
-    let robot = RobotOptions { travels: options.travels, ..RobotOptions::default() };
-    let robot = robot.with_noise(options.noise);
+    let robot = robot(options).with_noise(options.noise);
     let strategy = match &options.visit[..] {
         [] if options.wander => Strategy::Wander,
         [] => Strategy::Cover,
@@ -68,6 +68,21 @@ pub(crate) fn run(options: &SimulateOptions) -> Result<Status, Failure> {
     }
     print(&account(&name, &drive))?;
     Ok(if drive.ending == Ending::Done { Status::Found } else { Status::Stopped })
+}
+
+/// The robot, which takes the same for a place as the one who tells it where to go.
+fn robot(options: &SimulateOptions) -> RobotOptions {
+    let usual = RobotOptions::default();
+    let mut outlook = options.places.along_logs();
+    outlook.place.arrival = usual.outlook.place.arrival;
+    // Noise makes passages look narrower; the robot goes where it fits.
+    outlook.place.narrowest_way = usual.outlook.place.narrowest_way;
+    RobotOptions {
+        travels: options.travels,
+        places: options.places.in_grids(UnknownSpace::Wall),
+        outlook,
+        ..usual
+    }
 }
 
 /// The map to drive through, and what to call it.
@@ -143,24 +158,12 @@ fn account(name: &str, drive: &Drive) -> String {
 fn picture(grid: &OccupancyGrid, drive: &Drive) -> String {
     let places = drive.graph.places.iter().map(|place| (place.center, &place.star)).collect();
     let robot = drive.moments.last().map(|moment| [moment.pose.x, moment.pose.y]);
-    let drawn = draw_grid(grid, &GridPicture { places, robot, ..GridPicture::default() });
-    let lattice = grid.lattice();
     let start = drive.moments.first().map(|moment| moment.pose).unwrap_or_default();
-    let told = drive.moments.iter().map(|moment| start.compose(moment.odometry));
-    let ways = polyline(lattice, told, "#e69f00")
-        + &polyline(lattice, drive.moments.iter().map(|moment| moment.pose), "#0072b2");
-    drawn.replace("</svg>", &(ways + "</svg>"))
-}
-
-fn polyline(lattice: &Lattice, way: impl Iterator<Item = hssh_metrics::Pose>, color: &str) -> String {
-    let corner = |pose: hssh_metrics::Pose| {
-        let [column, row] = lattice.continuous([pose.x, pose.y]);
-        format!("{column:.1},{:.1}", f64::from(lattice.height()) - row)
+    let way = |pose: &dyn Fn(&Moment) -> Pose| {
+        let poses = drive.moments.iter().step_by(3).map(pose);
+        poses.map(|pose| [pose.x, pose.y]).collect()
     };
-    let corners: Vec<String> = way.step_by(3).map(corner).collect();
-    let width = 0.08 / lattice.resolution();
-    format!(
-        "<polyline fill=\"none\" stroke=\"{color}\" stroke-width=\"{width:.1}\" points=\"{}\"/>\n",
-        corners.join(" ")
-    )
+    let told = way(&|moment| start.compose(moment.odometry));
+    let ways = vec![(told, TOLD_WAY), (way(&|moment| moment.pose), TRUE_WAY)];
+    draw_grid(grid, &GridPicture { places, ways, robot, ..GridPicture::default() })
 }

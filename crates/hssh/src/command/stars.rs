@@ -4,8 +4,9 @@ use std::path::Path;
 
 use hssh_draw::{GridPicture, draw_grid};
 use hssh_local::{
-    DistanceField, LocalMapOptions, LocalStar, Neighborhood, Occupancy, OccupancyGrid, PlaceGraph, PlaceKind,
-    PlaceParameters, Visit, global_map, neighborhood, read_floor_plan, read_map,
+    DistanceField, DoorParameters, Gateway, LocalMapOptions, LocalStar, Neighborhood, Occupancy,
+    OccupancyGrid, PlaceGraph, PlaceKind, PlaceParameters, Visit, doors, global_map, hidden_area,
+    neighborhood, read_floor_plan, read_map,
 };
 use hssh_metrics::Pose;
 use serde::Serialize;
@@ -16,14 +17,25 @@ use crate::failure::{Failure, Status};
 use crate::input::is_log;
 use crate::output::{counted, print, print_json, write_file};
 
-/// The side of the part of the map that is looked at around one point, in metres.
-const WINDOW: f64 = 15.0;
+/// How far the part of the map that is looked at around one point reaches, in metres, beyond the shallowest way out.
+const MARGIN: f64 = 6.5;
 
 /// What is printed as JSON; metres and radians in the frame of the map.
 #[derive(Serialize)]
 struct Report {
     places: Vec<PlaceReport>,
     connections: Vec<[EndReport; 2]>,
+    /// Narrow points of the medial axis; of grid maps only.
+    constrictions: Vec<ConstrictionReport>,
+}
+
+#[derive(Serialize)]
+struct ConstrictionReport {
+    #[serde(flatten)]
+    gateway: GatewayReport,
+    /// Square metres that are in sight from one side of it only.
+    hidden_area: f64,
+    is_door: bool,
 }
 
 #[derive(Serialize)]
@@ -45,6 +57,7 @@ struct StarEndReport {
 #[derive(Serialize)]
 struct GatewayReport {
     position: [f64; 2],
+    bearing: f64,
     width: f64,
     line: [[f64; 2]; 2],
 }
@@ -92,10 +105,12 @@ fn everywhere(
     let graph = PlaceGraph::new(grid, parameters).map_err(|error| failure(&options.map, error))?;
     if let Some(file) = &options.svg {
         let places = graph.places.iter().map(|place| (place.center, &place.star)).collect();
-        let picture = GridPicture { skeleton: Some(&graph.skeleton), places, ..GridPicture::default() };
+        let doors = doors(grid, &graph.constrictions, &DoorParameters::default());
+        let skeleton = Some(&graph.skeleton);
+        let picture = GridPicture { skeleton, places, constrictions: &doors, ..GridPicture::default() };
         write_file(file, &draw_grid(grid, &picture))?;
     }
-    let report = Report::of(&graph);
+    let report = Report::of(&graph, grid);
     if options.json {
         print_json(&report)?;
     } else {
@@ -107,7 +122,7 @@ fn everywhere(
 /// The places that a robot visited, in the frame of its track.
 fn along(options: &StarsOptions) -> Result<Status, Failure> {
     let log = read_log(&options.map)?;
-    let survey = surveyed(&options.map, &log)?;
+    let survey = surveyed(&options.map, &log, &options.places.along_logs())?;
     if let Some(file) = &options.svg {
         let track: Vec<Pose> = survey.track.scans.iter().map(|scan| scan.pose).collect();
         let grid = global_map(&log, &track, &LocalMapOptions::default())
@@ -132,7 +147,7 @@ fn along(options: &StarsOptions) -> Result<Status, Failure> {
     };
     let places: Vec<PlaceReport> = survey.visits.iter().map(place).collect();
     if options.json {
-        print_json(&Report { places, connections: Vec::new() })?;
+        print_json(&Report { places, connections: Vec::new(), constrictions: Vec::new() })?;
     } else {
         let visits = counted(places.len(), "visit");
         let mut text = format!("{}: {visits}, in the frame of the robot's track\n", options.map.display());
@@ -152,7 +167,8 @@ fn around(
     options: &StarsOptions,
 ) -> Result<Status, Failure> {
     let outside = || Failure::Usage(format!("the point ({}, {}) is not on the map", point[0], point[1]));
-    let window = grid.window(point, WINDOW).ok_or_else(outside)?;
+    let side = 2.0 * (parameters.skeleton.shallowest_branch + MARGIN);
+    let window = grid.window(point, side).ok_or_else(outside)?;
     let found = neighborhood(&window, point, parameters).map_err(|error| failure(&options.map, error))?;
     if let Some(file) = &options.svg {
         let picture = GridPicture {
@@ -178,17 +194,24 @@ fn failure(map: &Path, error: impl std::fmt::Display) -> Failure {
 }
 
 impl Report {
-    fn of(graph: &PlaceGraph) -> Self {
+    fn of(graph: &PlaceGraph, grid: &OccupancyGrid) -> Self {
         let places = graph.places.iter();
         let end = |&(place, olp): &(hssh_local::PlaceNumber, hssh_topology::Olp)| EndReport {
             place: place.0,
             end: graph.place(place).star.star.name(olp).to_string(),
+        };
+        let criterion = DoorParameters::default();
+        let constriction = |gateway: &Gateway| {
+            let hidden_area = hidden_area(grid, gateway, &criterion);
+            let is_door = gateway.width <= criterion.widest && hidden_area >= criterion.least_hidden;
+            ConstrictionReport { gateway: GatewayReport::new(gateway), hidden_area, is_door }
         };
         Report {
             places: places
                 .map(|place| PlaceReport::new(place.kind, place.center, place.clearance, &place.star))
                 .collect(),
             connections: graph.connections.iter().map(|found| found.ends.each_ref().map(end)).collect(),
+            constrictions: graph.constrictions.iter().map(constriction).collect(),
         }
     }
 
@@ -208,7 +231,18 @@ impl Report {
         for [from, to] in &self.connections {
             text += &format!("{} {} leads to {} {}\n", from.place, from.end, to.place, to.end);
         }
+        for door in self.constrictions.iter().filter(|found| found.is_door) {
+            let ([x, y], width) = (door.gateway.position, door.gateway.width);
+            text += &format!("a door at ({x:.1}, {y:.1}), {width:.1} m wide\n");
+        }
         text
+    }
+}
+
+impl GatewayReport {
+    fn new(gateway: &Gateway) -> Self {
+        let Gateway { position, bearing, width, line } = *gateway;
+        GatewayReport { position, bearing, width, line }
     }
 }
 
@@ -217,11 +251,7 @@ impl PlaceReport {
         let ends = star.star.olps().map(|olp| StarEndReport {
             name: star.star.name(olp).to_string(),
             bearing: star.bearings[olp.index()],
-            gateway: star.gateways[olp.index()].map(|gateway| GatewayReport {
-                position: gateway.position,
-                width: gateway.width,
-                line: gateway.line,
-            }),
+            gateway: star.gateways[olp.index()].as_ref().map(GatewayReport::new),
         });
         let kind = match kind {
             PlaceKind::Passage => "passage",

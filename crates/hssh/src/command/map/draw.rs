@@ -12,6 +12,7 @@ use nalgebra::Matrix2;
 
 use super::Source;
 use crate::arguments::MapOptions;
+use crate::command::stages::{building_file, map_file};
 use crate::failure::Failure;
 use crate::output::write_file;
 
@@ -29,7 +30,8 @@ pub(super) struct Pictures<'a> {
 
 /// Whether any picture or file is asked for.
 pub(super) fn is_asked(options: &MapOptions) -> bool {
-    [&options.svg, &options.dot, &options.tree, &options.g2o, &options.grid].iter().any(|file| file.is_some())
+    let files = [&options.svg, &options.dot, &options.tree, &options.g2o, &options.grid, &options.debug_dir];
+    files.iter().any(|file| file.is_some())
 }
 
 /// Draws the tree, and the best maps.
@@ -48,12 +50,14 @@ pub(super) fn draw(options: &MapOptions, pictures: &Pictures<'_>) -> Result<(), 
     let mut cursor = Cursor::new(experience);
     for (index, (node, graph)) in best.iter().enumerate() {
         let node = *node;
-        let files = [&options.svg, &options.dot, &options.g2o, &options.grid]
+        let [map_stage, building_stage] =
+            [map_file, building_file].map(|stage| options.debug_dir.as_deref().map(stage));
+        let files = [&options.svg, &map_stage, &options.dot, &options.g2o, &options.grid, &building_stage]
             .map(|file| numbered(file.as_deref(), index));
         if files.iter().all(Option::is_none) {
             break;
         }
-        let [svg, dot, g2o, grid] = files;
+        let [svg, map_stage, dot, g2o, grid, building_stage] = files;
         let visits = cursor.visits(node, tree, experience);
         let hypothesis = cursor.go_to(node, tree, experience);
         let map = &hypothesis.map;
@@ -70,14 +74,16 @@ pub(super) fn draw(options: &MapOptions, pictures: &Pictures<'_>) -> Result<(), 
             star_names: exploration.star_types().iter().map(|named| named.name.clone()).collect(),
             ..DrawOptions::default()
         };
-        if let Some(file) = svg {
+        for file in [svg, map_stage].into_iter().flatten() {
             write_file(&file, &draw_map(map, &layout, &drawn))?;
         }
         if let Some(file) = dot {
             write_file(&file, &map_to_dot(map, &experience.catalog, &drawn))?;
         }
-        if let (Some(file), Some(surveyed), Some(graph)) = (grid, &source.surveyed, graph) {
-            surveyed.write_grid(&file, &visits, graph)?;
+        if let (Some(surveyed), Some(graph)) = (&source.surveyed, graph) {
+            for file in [grid, building_stage].into_iter().flatten() {
+                surveyed.write_grid(&file, &visits, graph)?;
+            }
         }
         if let Some(file) = g2o {
             let graph = graph.as_ref().ok_or(Failure::NoOdometry)?;

@@ -11,7 +11,9 @@ use hssh_search::Appearance;
 use hssh_topology::{Isomorphism, Position};
 
 use super::Source;
+use crate::arguments::PlaceOptions;
 use crate::command::explore::{failed, read_log, surveyed};
+use crate::command::stages::{draw_survey, too_large};
 use crate::failure::Failure;
 use crate::output::say_written;
 
@@ -21,10 +23,13 @@ pub(crate) struct Surveyed {
     survey: Survey,
 }
 
-/// Reads a log and surveys it.
-pub(super) fn read(file: &Path) -> Result<Source, Failure> {
+/// Reads a log and surveys it; draws that into a folder if one is given.
+pub(super) fn read(file: &Path, places: &PlaceOptions, folder: Option<&Path>) -> Result<Source, Failure> {
     let log = read_log(file)?;
-    let survey = surveyed(file, &log)?;
+    let survey = surveyed(file, &log, &places.along_logs())?;
+    if let Some(folder) = folder {
+        draw_survey(&log, &survey, folder)?;
+    }
     let exploration = survey.exploration().map_err(|error| failed(file, error))?;
     Ok(Source { exploration, surveyed: Some(Surveyed { log, survey }) })
 }
@@ -52,9 +57,7 @@ impl Surveyed {
     ) -> Result<(), Failure> {
         let frames = visit_frames(&self.survey.visits, visits, places.poses());
         let poses = global_poses(&self.survey, &frames);
-        let grid = global_map(&self.log, &poses, &LocalMapOptions::default()).map_err(|error| {
-            Failure::Usage(format!("the map of the building is too large for a grid: {error}"))
-        })?;
+        let grid = global_map(&self.log, &poses, &LocalMapOptions::default()).map_err(too_large)?;
         let is_yaml = file.extension().is_some_and(|ending| ending == "yaml" || ending == "yml");
         if is_yaml {
             write_map(&grid, file)?

@@ -6,6 +6,7 @@ pub(crate) mod preferred;
 pub(crate) mod probable;
 
 use hssh_causal::Exploration;
+use hssh_search::LevelCounts;
 
 use crate::arguments::{MapOptions, Task};
 use crate::failure::{Failure, Status};
@@ -34,12 +35,23 @@ pub(crate) fn run(options: &MapOptions) -> Result<Status, Failure> {
     }
 }
 
+/// Which travel no map explains, by how many hypotheses explain so many travels.
+fn none_survives(levels: &[LevelCounts]) -> String {
+    let travel = levels.iter().position(|level| level.nodes == 0).unwrap_or(levels.len());
+    format!(
+        "No map explains the exploration: none survives travel {travel}. Is a star wrong, or an axiom too strict? \
+         --travels {} maps what was before.\n",
+        travel.saturating_sub(1)
+    )
+}
+
 fn read(options: &MapOptions) -> Result<Source, Failure> {
     if is_log(&options.file)? {
-        return log::read(&options.file);
+        return log::read(&options.file, &options.places, options.debug_dir.as_deref());
     }
-    if options.grid.is_some() || options.likeness != 0.0 {
-        let help = "--grid and --likeness need a laser log: an exploration has no scans";
+    let is_asked = options.grid.is_some() || options.likeness != 0.0 || options.debug_dir.is_some();
+    if is_asked || !options.places.is_empty() {
+        let help = "--grid, --likeness, --debug-dir and what counts as a place need a laser log: an exploration has no scans";
         return Err(Failure::Usage(help.to_owned()));
     }
     Ok(Source { exploration: read_exploration(&options.file)?, surveyed: None })

@@ -5,8 +5,8 @@ use hssh_search::{Levels, Mapper, RankedMap, Report, StopReason, Strategy, place
 use hssh_topology::{MapSketch, Position};
 use serde::Serialize;
 
-use super::Source;
 use super::draw::{Pictures, draw, is_asked};
+use super::{Source, none_survives};
 use crate::arguments::{MapOptions, SearchOptions};
 use crate::failure::{Failure, Status};
 use crate::output::{counted, print, print_json};
@@ -159,11 +159,7 @@ fn verdict(report: &Report) -> String {
             };
             format!("No closed map explains the exploration; {hypotheses} left with pending gateways.\n")
         }
-        (_, 0, _) => match report.levels.iter().position(|level| level.nodes == 0) {
-            _ if report.levels.len() as u64 <= report.travels => none_survives(report.levels.len()),
-            Some(travel) => none_survives(travel),
-            None => "No map explains the exploration.\n".to_owned(),
-        },
+        (_, 0, _) => none_survives(&report.levels),
         (StopReason::Exhausted, _, 1) => format!("{maps} {explains} the exploration; one is optimal.\n"),
         (StopReason::Exhausted, _, best) => {
             format!("{maps} {explains} the exploration; {best} are optimal.\n")
@@ -181,12 +177,6 @@ fn verdict(report: &Report) -> String {
         }
         _ => format!("Stopped early: {maps} {explains} everything; others may be better.\n"),
     }
-}
-
-fn none_survives(travel: usize) -> String {
-    format!(
-        "No map explains the exploration: none survives travel {travel}. Is a star wrong, or an axiom too strict?\n"
-    )
 }
 
 /// How many of the listed maps share the best rank.

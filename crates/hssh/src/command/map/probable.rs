@@ -11,8 +11,8 @@ use hssh_search::{
 use hssh_topology::{MapOlp, MapSketch, Measure, PlaceId, Position, StarCatalog};
 use serde::Serialize;
 
-use super::Source;
 use super::draw::{Pictures, draw};
+use super::{Source, none_survives};
 use crate::arguments::{MapOptions, SearchOptions};
 use crate::failure::{Failure, Status};
 use crate::output::{counted, print, print_json};
@@ -192,7 +192,7 @@ fn verdict(report: &PosteriorReport, maps: &[ProbableMap]) -> String {
 fn why_nothing(report: &PosteriorReport) -> String {
     match (report.stop.is_complete(), report.rejected) {
         (false, _) => "Stopped early: no map that explains everything was found yet.\n".to_owned(),
-        (true, 0) => "No map explains the exploration. Is a star wrong, or an axiom too strict?\n".to_owned(),
+        (true, 0) => none_survives(&report.levels),
         (true, 1) => "No closed map explains the exploration; 1 hypothesis was left with pending gateways.\n"
             .to_owned(),
         (true, rejected) => format!(

@@ -1,0 +1,145 @@
+//! The command line of what works on grid maps, floor plans and laser logs.
+
+use std::path::PathBuf;
+
+use clap::Args;
+use hssh_local::{PlaceParameters, SkeletonParameters, SurveyOptions, UnknownSpace};
+
+#[derive(Debug, Args)]
+pub(crate) struct ExploreOptions {
+    /// The log: CARMEN text with FLASER messages, plain or gzip; `-` reads standard input.
+    pub(crate) log: PathBuf,
+    /// Where to write the exploration; without it, it is printed.
+    #[arg(short, long, value_name = "FILE")]
+    pub(crate) output: Option<PathBuf>,
+    /// Write pictures of every stage into this folder: the track, and the local map and the star of each visit.
+    #[arg(long, value_name = "FOLDER")]
+    pub(crate) debug_dir: Option<PathBuf>,
+    #[command(flatten)]
+    pub(crate) places: PlaceOptions,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct SimulateOptions {
+    /// The map: the YAML file of ROS `map_server`.
+    pub(crate) map: Option<PathBuf>,
+    /// Instead of a map, one of the floors that come with the program, such as `figure-eight`.
+    #[arg(long, value_name = "NAME", conflicts_with = "map")]
+    pub(crate) floor: Option<String>,
+    /// Where to write the log, as CARMEN text; `hssh explore` reads it.
+    #[arg(short, long, value_name = "FILE")]
+    pub(crate) output: PathBuf,
+    /// Another seed is another drive.
+    #[arg(long, value_name = "N", default_value_t = 1)]
+    pub(crate) seed: u64,
+    /// How many travels from place to place to make at most.
+    #[arg(long, value_name = "N", default_value_t = 40)]
+    pub(crate) travels: usize,
+    /// All errors of laser and wheels, in parts of their usual size.
+    #[arg(long, value_name = "FACTOR", default_value_t = 1.0, value_parser = length)]
+    pub(crate) noise: f64,
+    /// Where to start, in metres in the frame of the map, such as `--start=-1.5,20`; in a place if not given.
+    #[arg(long, value_name = "X,Y", value_parser = point, allow_hyphen_values = true)]
+    pub(crate) start: Option<[f64; 2]>,
+    /// Visit these places in turn, by the numbers that `hssh stars` gives them, such as `--visit 0,4,1`; if not
+    /// given, every corridor is travelled once.
+    #[arg(long, value_name = "PLACES", value_delimiter = ',')]
+    pub(crate) visit: Vec<u32>,
+    /// Take any way at every place.
+    #[arg(long, conflicts_with = "visit")]
+    pub(crate) wander: bool,
+    /// Write the truth as JSON: the map's places, and where the robot centered itself.
+    #[arg(long, value_name = "FILE")]
+    pub(crate) truth: Option<PathBuf>,
+    /// Draw the map with the true way and the way that odometry tells.
+    #[arg(long, value_name = "FILE")]
+    pub(crate) svg: Option<PathBuf>,
+    #[command(flatten)]
+    pub(crate) places: PlaceOptions,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct StarsOptions {
+    /// The map: the YAML file of ROS `map_server`, or a floor plan as a PGM or PNG image; or a laser log in CARMEN
+    /// form, of which the places visited are shown.
+    pub(crate) map: PathBuf,
+    /// Metres per pixel of a floor plan without a YAML file.
+    #[arg(long, value_name = "METRES")]
+    pub(crate) resolution: Option<f64>,
+    /// Only the place around a point, in metres in the frame of the map, such as `--at=-1.5,20`.
+    #[arg(long, value_name = "X,Y", value_parser = point, allow_hyphen_values = true)]
+    pub(crate) at: Option<[f64; 2]>,
+    #[command(flatten)]
+    pub(crate) places: PlaceOptions,
+    /// Unknown cells are free, as in floor plans that only have walls.
+    #[arg(long)]
+    pub(crate) unknown_is_free: bool,
+    /// Print one JSON object.
+    #[arg(long)]
+    pub(crate) json: bool,
+    /// Draw the map with its medial axis, gateways and stars as SVG.
+    #[arg(long, value_name = "FILE")]
+    pub(crate) svg: Option<PathBuf>,
+}
+
+impl StarsOptions {
+    pub(crate) fn parameters(&self) -> PlaceParameters {
+        let unknown = if self.unknown_is_free { UnknownSpace::Free } else { UnknownSpace::Wall };
+        self.places.in_grids(unknown)
+    }
+}
+
+/// What counts as a place.
+#[derive(Debug, Args)]
+#[command(next_help_heading = "Places")]
+pub(crate) struct PlaceOptions {
+    /// Passages narrower than this many metres are closed [default: 0.6 in grid maps, 0.55 along logs].
+    #[arg(long, value_name = "METRES", value_parser = length)]
+    pub(crate) narrowest: Option<f64>,
+    /// Ways that lead on for less than this many metres are no ways out [default: 1 in grid maps, 8 along logs].
+    #[arg(long, value_name = "METRES", value_parser = length)]
+    pub(crate) shallowest: Option<f64>,
+    /// Obstacles no larger than this many metres are clutter [default: 0.3].
+    #[arg(long, value_name = "METRES", value_parser = length)]
+    pub(crate) clutter: Option<f64>,
+}
+
+impl PlaceOptions {
+    /// What they mean in a grid map.
+    pub(crate) fn in_grids(&self, unknown: UnknownSpace) -> PlaceParameters {
+        let usual = SkeletonParameters::default();
+        let skeleton = SkeletonParameters {
+            unknown,
+            clutter: self.clutter.unwrap_or(usual.clutter),
+            narrowest_passage: self.narrowest.unwrap_or(usual.narrowest_passage),
+            shallowest_branch: self.shallowest.unwrap_or(usual.shallowest_branch),
+            ..usual
+        };
+        PlaceParameters { skeleton, ..PlaceParameters::default() }
+    }
+
+    /// What they mean along a log.
+    pub(crate) fn along_logs(&self) -> SurveyOptions {
+        let usual = SurveyOptions::default();
+        let mut options = self.shallowest.map_or(usual, |depth| usual.with_depth(depth));
+        options.place.narrowest_way = self.narrowest.unwrap_or(options.place.narrowest_way);
+        options.place.clutter = self.clutter.unwrap_or(options.place.clutter);
+        options
+    }
+
+    /// Whether nothing was asked for.
+    pub(crate) fn is_empty(&self) -> bool {
+        self.narrowest.is_none() && self.shallowest.is_none() && self.clutter.is_none()
+    }
+}
+
+fn point(text: &str) -> Result<[f64; 2], String> {
+    let number = |text: &str| text.trim().parse::<f64>().ok().filter(|number| number.is_finite());
+    let coordinates = text.split_once(',').and_then(|(x, y)| number(x).zip(number(y)));
+    coordinates.map(|(x, y)| [x, y]).ok_or_else(|| "write two numbers of metres, like 2.5,-1".to_owned())
+}
+
+fn length(text: &str) -> Result<f64, String> {
+    let metres = text.parse().ok().filter(|metres: &f64| metres.is_finite() && *metres >= 0.0);
+    metres.ok_or_else(|| "write a number of metres, like 0.8".to_owned())
+}
