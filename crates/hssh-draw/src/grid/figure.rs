@@ -59,11 +59,11 @@ pub fn draw_grid(grid: &OccupancyGrid, picture: &GridPicture<'_>) -> String {
     for (way, color) in &picture.ways {
         drawing.polyline(way.iter().copied(), color, 1.6);
     }
-    for gateway in picture.constrictions {
-        drawing.line(gateway.line, "#009e73", 2.0);
-    }
     for (number, (center, star)) in picture.places.iter().enumerate() {
         drawing.star(*center, star, number);
+    }
+    for gateway in picture.constrictions {
+        drawing.line(gateway.line, "#009e73", 5.0);
     }
     if let Some(robot) = picture.robot {
         drawing.disk(robot, 5.0, "#0072b2");

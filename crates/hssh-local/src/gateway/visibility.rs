@@ -24,13 +24,18 @@ impl Default for DoorParameters {
     }
 }
 
+impl DoorParameters {
+    /// Whether a constriction that hides so many square metres is a door.
+    #[must_use]
+    pub fn accept(&self, constriction: &Gateway, hidden_area: f64) -> bool {
+        constriction.width <= self.widest && hidden_area >= self.least_hidden
+    }
+}
+
 /// Which of some constrictions are doors.
 #[must_use]
 pub fn doors(grid: &OccupancyGrid, constrictions: &[Gateway], parameters: &DoorParameters) -> Vec<Gateway> {
-    let is_door = |gateway: &&Gateway| {
-        gateway.width <= parameters.widest
-            && hidden_area(grid, gateway, parameters) >= parameters.least_hidden
-    };
+    let is_door = |gateway: &&Gateway| parameters.accept(gateway, hidden_area(grid, gateway, parameters));
     constrictions.iter().filter(is_door).copied().collect()
 }
 

@@ -1,9 +1,10 @@
 //! A simulated robot: it drives through a grid map by the control laws of section 2.1.1 and keeps a log.
 //!
-//! The robot is a disc with two wheels and a laser. What it does follows from what it perceives: ranges all
-//! around, noisy as the laser's, and the gateways of the place-neighborhood that it is in, read from the grid
-//! around it as from a local perceptual model. Only which gateway it takes is decided by somebody who knows the
-//! whole map: a [`Strategy`]. The truth is kept beside the log: true poses, and at which places it centered.
+//! The robot is a disc with two wheels and a laser that looks all around, of which the front half is logged. What it
+//! does follows from what it perceives: ranges, and the gateways of the place-neighborhood that it is in. It reads these
+//! from a local perceptual map of its own, made of what its laser saw from where scan matching believes it was. Only
+//! which gateway it takes is decided by somebody who knows the whole map: a [`Strategy`]. The truth is kept beside the
+//! log: true poses, and at which places it centered.
 //!
 //! ```
 //! use hssh_world::robot::{RobotOptions, Strategy, drive};

@@ -203,7 +203,7 @@ impl Report {
         let criterion = DoorParameters::default();
         let constriction = |gateway: &Gateway| {
             let hidden_area = hidden_area(grid, gateway, &criterion);
-            let is_door = gateway.width <= criterion.widest && hidden_area >= criterion.least_hidden;
+            let is_door = criterion.accept(gateway, hidden_area);
             ConstrictionReport { gateway: GatewayReport::new(gateway), hidden_area, is_door }
         };
         Report {
