@@ -66,12 +66,16 @@ fn it_reaches_the_places_it_meant_to_and_centers_in_them() {
     for floor in floors() {
         let found = driven(&plan(&floor), 10, 1);
         assert_eq!(found.ending, Ending::Done, "{}: {}", floor.name, found.ending);
+        let mut sum = 0.0;
         for stop in &found.stops {
             assert!(stop.place.is_some() && (stop.meant.is_none() || stop.meant == stop.place), "{stop:?}");
             // The center is where the midlines of the corridors meet.
             let (_, off) = nearest(&floor, [stop.pose.x, stop.pose.y]);
-            assert!(off < 0.5, "{}: {off:.2} m off center at {stop:?}", floor.name);
+            assert!(off < floor.width / 2.0, "{}: {off:.2} m off, not in the crossing: {stop:?}", floor.name);
+            sum += off;
         }
+        let mean = sum / found.stops.len() as f64;
+        assert!(mean < 0.2, "{}: {mean:.2} m off center on the mean", floor.name);
     }
 }
 
