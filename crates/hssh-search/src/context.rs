@@ -1,6 +1,6 @@
 //! What every search is given: what to explain, under which rules, and who helps.
 
-use hssh_topology::{Axioms, Preference};
+use hssh_topology::Axioms;
 
 use crate::crew::Crew;
 use crate::experience::Experience;
@@ -12,7 +12,6 @@ use crate::tree::Tree;
 pub(crate) struct Context<'a> {
     pub(crate) experience: &'a Experience,
     pub(crate) axioms: &'a Axioms,
-    pub(crate) preference: Preference,
     pub(crate) crew: &'a Crew,
     pub(crate) watch: &'a Watch,
 }

@@ -5,10 +5,10 @@ use std::time::Instant;
 
 use hssh_topology::{Hypothesis, Observation, Preference, Removals};
 
-use crate::breadth_first::BreadthFirst;
 use crate::context::Context;
 use crate::depth_first::{Visitor, depth_first};
 use crate::limits::{StopReason, Watch};
+use crate::order::Fringe;
 use crate::report::{FinalCounts, LevelCounts, Report, Tally};
 use crate::tree::{NodeId, Tree};
 
@@ -22,24 +22,24 @@ const BRANCHES_UNDER_LIMIT: usize = 64;
 const LOOK: u64 = 1 << 14;
 
 /// Goes through all hypotheses of an experience and counts them, keeping none.
-pub(crate) fn count(context: Context<'_>) -> Report {
+pub(crate) fn count(context: Context<'_>, preference: Preference) -> Report {
     let started = Instant::now();
-    let Context { experience, axioms, preference, crew, watch } = context;
+    let Context { experience, axioms, crew, watch } = context;
     let travels = context.travels();
 
     let mut tree = Tree::new();
-    let mut top = BreadthFirst::default();
+    let mut top = Fringe::default();
     let mut tally = Tally::new();
     let mut stop = None;
-    while stop.is_none() && top.depth < travels && top.fringe.len() < BRANCHES as usize {
+    while stop.is_none() && top.depth < travels && top.nodes.len() < BRANCHES as usize {
         stop = top.grow(&mut tree, context, &mut tally).err();
     }
     tally.levels.resize(travels + 1, LevelCounts::default());
     let mut total =
         Counting { levels: tally.levels, removals: tally.removals, ..Counting::new(preference, watch) };
 
-    let top_expanded = u64::from(top.fringe.start);
-    let branches: Vec<NodeId> = top.fringe.clone().map(NodeId).collect();
+    let top_expanded = u64::from(top.nodes.start);
+    let branches: Vec<NodeId> = top.nodes.clone().map(NodeId::new).collect();
     // Under a limit on nodes, branches beyond it would be counted in vain.
     let at_once = if watch.limits_nodes() { BRANCHES_UNDER_LIMIT } else { branches.len().max(1) };
     for together in branches.chunks(at_once) {
@@ -67,7 +67,7 @@ pub(crate) fn count(context: Context<'_>) -> Report {
     let sum = |of: fn(&LevelCounts) -> u64| total.levels.iter().map(of).sum::<u64>();
     let (maps, refuted) = (sum(|level| level.maps), sum(|level| level.refuted));
     Report {
-        strategy: "exhaustive counting",
+        strategy: "exhaustive counting".to_owned(),
         stop: stop.unwrap_or(StopReason::Exhausted),
         travels: travels as u64,
         explained: if stop.is_none() { travels as u64 } else { 0 },
@@ -79,10 +79,11 @@ pub(crate) fn count(context: Context<'_>) -> Report {
         rejected: 0,
         is_optimal: stop.is_none(),
         removals: total.removals,
-        certificate: None,
+        proof: None,
+        solved: 0,
         levels: total.levels,
         seconds: started.elapsed().as_secs_f64(),
-        tree_bytes: tree.bytes(),
+        bytes: tree.bytes(),
     }
 }
 

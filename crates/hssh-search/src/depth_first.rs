@@ -2,7 +2,7 @@
 
 use std::ops::ControlFlow;
 
-use hssh_topology::{Axioms, Derivation, Extension, Hypothesis, MapOlp, Observation, Position, Removals};
+use hssh_topology::{Axioms, Derivation, Footprint, Hypothesis, Observation, Outcome, Removals, Rules, Step};
 
 use crate::experience::Experience;
 
@@ -31,12 +31,14 @@ pub trait Visitor {
     }
 }
 
-/// What was done at a node to go below it.
-enum Frame {
-    /// Nothing but to move the robot.
-    Followed { before: Position },
-    /// The map is extended by each of the extensions of that depth in turn.
-    Expanding { before: Position, exit: MapOlp, next: usize },
+/// A node that the walk is below of.
+struct Frame {
+    /// In which ways the travel after the node follows from it. The walk goes into each in turn.
+    step: Step,
+    /// How many of them it went into.
+    next: usize,
+    /// How to come back from the last one.
+    footprint: Option<Footprint>,
 }
 
 /// Visits every node from `hypothesis` down, which explains the first `depth` travels, in the order
@@ -50,56 +52,42 @@ pub fn depth_first(
     visitor: &mut impl Visitor,
 ) -> Removals {
     let Experience { catalog, observations, .. } = experience;
-    let mut removals = Removals::default();
-    let mut stack: Vec<Frame> = Vec::new();
-    let mut ended = false;
-    let mut extensions: Vec<Vec<Extension>> = vec![Vec::new(); observations.len().saturating_sub(depth)];
-
+    let rules = Rules { catalog, axioms };
+    let levels = observations.len().saturating_sub(depth);
+    let mut frames: Vec<Frame> = Vec::new();
+    frames.resize_with(levels, || Frame { step: Step::default(), next: 0, footprint: None });
+    // The walk is below the first `level` frames.
+    let (mut level, mut is_new, mut ended) = (0, true, false);
     loop {
-        // Apply the next observation to the node that was just entered.
-        let level = stack.len();
-        match observations.get(depth + level) {
-            _ if ended => {}
-            None => visitor.last(hypothesis),
-            Some(&observation) => {
+        if let Some(frame) = frames.get_mut(level) {
+            let observation = observations[depth + level];
+            if std::mem::take(&mut is_new) {
                 visitor.step(hypothesis, observation);
-                let before = hypothesis.position;
-                let found = &mut extensions[level];
-                match hypothesis.step(observation, catalog, axioms, found, &mut removals) {
-                    Derivation::PredictedInconsistent => visitor.refuted(depth + level),
-                    Derivation::Expand(exit) => stack.push(Frame::Expanding { before, exit, next: 0 }),
-                    Derivation::PredictedConsistent(arrival) => {
-                        hypothesis.arrive(arrival, observation.entry);
-                        stack.push(Frame::Followed { before });
-                        ended = visitor.node(depth + level + 1, false).is_break();
-                        continue;
-                    }
+                hypothesis.step(observation, rules, &mut frame.step);
+                frame.next = 0;
+                if frame.step.outcome == Outcome::Refuted {
+                    visitor.refuted(depth + level);
                 }
             }
+            if let Some(&derivation) = frame.step.derivations.get(frame.next).filter(|_| !ended) {
+                frame.next += 1;
+                frame.footprint = Some(hypothesis.follow(observation, derivation, catalog));
+                level += 1;
+                ended = visitor.node(depth + level, derivation != Derivation::Predicted).is_break();
+                is_new = !ended;
+                continue;
+            }
+        } else if std::mem::take(&mut is_new) {
+            visitor.last(hypothesis);
         }
-        // Go back up to the next node that has a successor left, and enter that one.
-        loop {
-            let level = stack.len().wrapping_sub(1);
-            match stack.last_mut() {
-                None => return removals,
-                Some(Frame::Followed { before }) => hypothesis.position = *before,
-                Some(Frame::Expanding { before, exit, next }) => {
-                    if *next > 0 {
-                        hypothesis.position = *before;
-                        hypothesis.retract(extensions[level][*next - 1]);
-                    }
-                    let left = if ended { &[] } else { &extensions[level][*next..] };
-                    if let Some(&extension) = left.first() {
-                        *next += 1;
-                        let observation = observations[depth + level];
-                        let arrival = hypothesis.extend(*exit, extension, observation, catalog);
-                        hypothesis.arrive(arrival, observation.entry);
-                        ended = visitor.node(depth + level + 1, true).is_break();
-                        break;
-                    }
-                }
-            }
-            stack.pop();
+        // Nothing is left to do here: back up.
+        let Some(above) = level.checked_sub(1) else { break };
+        level = above;
+        if let Some(footprint) = frames[level].footprint.take() {
+            hypothesis.take_back(footprint);
         }
     }
+    let mut removals = Removals::default();
+    frames.iter().for_each(|frame| removals += frame.step.removals);
+    removals
 }

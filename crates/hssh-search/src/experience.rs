@@ -1,9 +1,9 @@
-//! The robot's experience in the mapper's terms: a first star and a list of observations.
+//! The robot's experience in the mapper's terms: the star seen first, and what every travel showed.
 
-use hssh_causal::Exploration;
-use hssh_topology::{Observation, StarCatalog, StarId};
+use hssh_causal::{Exploration, NamedStar, Odometry};
+use hssh_topology::{Hypothesis, Isomorphism, Observation, Olp, Position, Star, StarCatalog, StarId};
 
-/// What a search explains.
+/// What a search explains. It grows by [`push`](Self::push), visit by visit.
 #[derive(Clone, Debug)]
 pub struct Experience {
     /// All stars that occur.
@@ -12,14 +12,175 @@ pub struct Experience {
     pub start: StarId,
     /// One observation per travel.
     pub observations: Vec<Observation>,
+    /// By star: the bearings of its ends, where they were measured.
+    bearings: Vec<Vec<Option<f64>>>,
+    /// By travel.
+    odometry: Vec<Option<Odometry>>,
+}
+
+/// What a robot tells when it comes to a place: how it left the place before, how it came into this one, and what it
+/// sees and has measured.
+#[derive(Clone, PartialEq, Debug)]
+pub struct Visit {
+    /// The end of the star seen last that the robot left by.
+    pub exit: Olp,
+    /// The end of the star seen now that it came in by.
+    pub entry: Olp,
+    /// The star seen now.
+    pub star: Star,
+    /// By end of the star: its bearing in the frame of this visit, rad, where it was measured; or nothing at all.
+    pub bearings: Vec<Option<f64>>,
+    /// The frame of this visit in the frame of the one before, if it was measured.
+    pub odometry: Option<Odometry>,
+    /// By earlier visit and rotation of φ: the log-likelihood ratio for the two visits to be at one place, by what
+    /// they look like beyond their stars. Empty, or short, where nothing is known.
+    pub likeness: Vec<Vec<f64>>,
+}
+
+impl Visit {
+    /// A visit of which no more is known than its star.
+    #[must_use]
+    pub fn new(exit: Olp, entry: Olp, star: &Star) -> Self {
+        let (bearings, likeness) = (Vec::new(), Vec::new());
+        Visit { exit, entry, star: star.clone(), bearings, odometry: None, likeness }
+    }
+
+    /// The same with a measured way.
+    #[must_use]
+    pub fn with_odometry(self, odometry: Odometry) -> Self {
+        Visit { odometry: Some(odometry), ..self }
+    }
+
+    /// The same with measured bearings.
+    #[must_use]
+    pub fn with_bearings(self, bearings: Vec<Option<f64>>) -> Self {
+        Visit { bearings, ..self }
+    }
+}
+
+/// A visit that cannot have happened.
+#[derive(Clone, PartialEq, Debug, thiserror::Error)]
+pub enum VisitError {
+    /// The star has no such end.
+    #[error("the star {star} has no end number {}", .olp.0)]
+    NoSuchEnd {
+        /// The star.
+        star: Star,
+        /// The end asked for.
+        olp: Olp,
+    },
+    /// The end is closed.
+    #[error("the end {} of the star {star} is closed", star.name(*.olp))]
+    ClosedEnd {
+        /// The star.
+        star: Star,
+        /// The closed end.
+        olp: Olp,
+    },
+    /// There are more or fewer bearings than ends.
+    #[error("the star {star} has {} ends but {bearings} bearings", star.degree())]
+    BearingCount {
+        /// The star.
+        star: Star,
+        /// How many bearings were given.
+        bearings: usize,
+    },
+    /// A travel is not measured well enough for what the search asks of it.
+    #[error(transparent)]
+    Measurement(#[from] crate::measured::MeasurementError),
+}
+
+impl Experience {
+    /// Nothing seen but a first star.
+    #[must_use]
+    pub fn new(star: &Star, bearings: &[Option<f64>]) -> Self {
+        let mut catalog = StarCatalog::new();
+        let start = catalog.add(star);
+        let bearings = vec![complete(star, bearings)];
+        Experience { catalog, start, observations: Vec::new(), bearings, odometry: Vec::new() }
+    }
+
+    /// One visit more.
+    ///
+    /// # Errors
+    /// If an end does not exist or is closed, or if there are bearings, but not one for each end.
+    pub fn push(&mut self, visit: &Visit) -> Result<(), VisitError> {
+        let Visit { exit, entry, star, bearings, odometry, .. } = visit;
+        usable(self.catalog.star(self.last_star()), *exit)?;
+        usable(star, *entry)?;
+        if !bearings.is_empty() && bearings.len() != star.degree() as usize {
+            return Err(VisitError::BearingCount { star: star.clone(), bearings: bearings.len() });
+        }
+        let bearings = complete(star, bearings);
+        let mut known = self.catalog.stars().zip(&self.bearings);
+        let star = match known.position(|(other, measured)| (other, measured) == (star, &bearings)) {
+            Some(known) => StarId(known as u32),
+            None => {
+                self.bearings.push(bearings);
+                self.catalog.add(star)
+            }
+        };
+        self.observations.push(Observation { exit: *exit, entry: *entry, star });
+        self.odometry.push(*odometry);
+        Ok(())
+    }
+
+    /// Takes back the last visit.
+    pub(crate) fn pop(&mut self) {
+        self.observations.pop();
+        self.odometry.pop();
+    }
+
+    /// The star seen last.
+    fn last_star(&self) -> StarId {
+        self.observations.last().map_or(self.start, |observation| observation.star)
+    }
+
+    /// The star seen on each visit, the start first.
+    pub fn seen(&self) -> impl ExactSizeIterator<Item = StarId> + '_ {
+        let travels = self.observations.len();
+        (0..=travels).map(|visit| self.star_of(visit))
+    }
+
+    /// The star seen on a visit, the start being 0.
+    #[must_use]
+    pub fn star_of(&self, visit: usize) -> StarId {
+        visit.checked_sub(1).map_or(self.start, |travel| self.observations[travel].star)
+    }
+
+    /// The bearings of a star's ends, where they were measured.
+    #[must_use]
+    pub fn bearings(&self, star: StarId) -> &[Option<f64>] {
+        &self.bearings[star.index()]
+    }
+
+    /// What was measured on a travel.
+    #[must_use]
+    pub fn odometry(&self, travel: usize) -> Option<&Odometry> {
+        self.odometry[travel].as_ref()
+    }
+
+    /// The root of every tree about this experience.
+    #[must_use]
+    pub fn root(&self) -> Hypothesis {
+        Hypothesis::root(&self.catalog, self.start)
+    }
+
+    /// Where the robot is at the root.
+    pub(crate) fn root_position(&self) -> Position {
+        let phi = Isomorphism::identity(self.catalog.star(self.start));
+        Position { place: hssh_topology::PlaceId(0), phi }
+    }
 }
 
 /// The star types of the exploration keep their numbers: `StarType(i)` becomes `StarId(i)`.
 impl From<&Exploration> for Experience {
     fn from(exploration: &Exploration) -> Self {
         let mut catalog = StarCatalog::new();
-        for named in exploration.star_types() {
-            catalog.add(&named.star);
+        let mut bearings = Vec::new();
+        for NamedStar { star, bearings: measured, .. } in exploration.star_types() {
+            catalog.add(star);
+            bearings.push(measured.clone());
         }
         let observe = |travel: &hssh_causal::Travel| Observation {
             exit: travel.exit,
@@ -27,6 +188,22 @@ impl From<&Exploration> for Experience {
             star: StarId(travel.star.0),
         };
         let observations = exploration.travels().iter().map(observe).collect();
-        Experience { catalog, start: StarId(exploration.start().0), observations }
+        let odometry = exploration.travels().iter().map(|travel| travel.odometry).collect();
+        Experience { catalog, start: StarId(exploration.start().0), observations, bearings, odometry }
     }
+}
+
+/// One bearing for each end, unknown where none are given.
+fn complete(star: &Star, bearings: &[Option<f64>]) -> Vec<Option<f64>> {
+    if bearings.is_empty() { vec![None; star.degree() as usize] } else { bearings.to_vec() }
+}
+
+fn usable(star: &Star, olp: Olp) -> Result<(), VisitError> {
+    if olp.0 >= star.degree() {
+        return Err(VisitError::NoSuchEnd { star: star.clone(), olp });
+    }
+    if star.is_travelable(olp) {
+        return Ok(());
+    }
+    Err(VisitError::ClosedEnd { star: star.clone(), olp })
 }

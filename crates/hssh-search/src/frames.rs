@@ -4,34 +4,51 @@
 //! comes back may see the star turned by φ; then the frame of that visit is turned too, by the difference of
 //! the bearings of ends that φ takes to one another.
 
-use hssh_causal::{Exploration, NamedStar, StarType};
 use hssh_metrics::{Pose, PoseId};
-use hssh_topology::{Olp, Position};
+use hssh_topology::{Olp, Position, Star, StarId};
 
-/// The angles between the frames of visits and of places, for every pair of star types and every φ.
-#[derive(Clone, Debug)]
+use crate::experience::Experience;
+
+/// The angles between the frames of visits and of places, for every pair of stars and every φ. It grows with the
+/// experience.
+#[derive(Clone, Debug, Default)]
 pub(crate) struct Frames {
-    /// By star type seen, star type of the first visit, and rotation of φ; radians.
+    /// By star seen, star of the first visit, and rotation of φ; radians.
     turns: Vec<Vec<Vec<f64>>>,
-    /// The star type seen on each visit, the start first.
-    seen: Vec<StarType>,
+    /// By star: the bearings of all its ends.
+    bearings: Vec<Vec<f64>>,
+    /// The star seen on each visit, the start first.
+    seen: Vec<StarId>,
 }
 
 impl Frames {
-    pub(crate) fn of(exploration: &Exploration) -> Self {
-        let types = || (0..exploration.star_types().len() as u32).map(StarType);
-        let degree = |star: StarType| exploration.star_types()[star.index()].star.degree();
-        let turns_between = |seen: StarType, first: StarType| {
-            let rotations = if degree(seen) == degree(first) { 0..degree(seen) } else { 0..0 };
-            rotations.map(|rotation| turn(exploration, seen, first, rotation)).collect()
-        };
-        let turns = types().map(|seen| types().map(|first| turns_between(seen, first)).collect()).collect();
-        Frames { turns, seen: exploration.visits().collect() }
+    pub(crate) fn of(experience: &Experience) -> Self {
+        let mut frames = Frames::default();
+        frames.observe(experience);
+        frames
+    }
+
+    /// Takes notice of the visits that are new.
+    pub(crate) fn observe(&mut self, experience: &Experience) {
+        let stars: Vec<&Star> = experience.catalog.stars().collect();
+        for (number, star) in stars.iter().enumerate().skip(self.bearings.len()) {
+            self.bearings.push(bearings(star, experience.bearings(StarId(number as u32))));
+        }
+        for seen in 0..stars.len() {
+            let known = self.turns.get(seen).map_or(0, Vec::len);
+            let missing: Vec<_> =
+                (known..stars.len()).map(|first| turns(&self.bearings[seen], &self.bearings[first])).collect();
+            match self.turns.get_mut(seen) {
+                Some(row) => row.extend(missing),
+                None => self.turns.push(missing),
+            }
+        }
+        self.seen.extend(experience.seen().skip(self.seen.len()));
     }
 
     /// By what angle the frame of a visit is turned against that of a place whose star was `first` on its
     /// first visit, if φ turns the one star to the other by `rotation`.
-    pub(crate) fn turn(&self, visit: usize, first: StarType, rotation: u32) -> f64 {
+    pub(crate) fn turn(&self, visit: usize, first: StarId, rotation: u32) -> f64 {
         self.turns[self.seen[visit].index()][first.index()][rotation as usize]
     }
 
@@ -61,8 +78,8 @@ pub(crate) struct Trail {
     pub(crate) visits: Vec<Position>,
     /// The frame of each visit in the frame of its place.
     pub(crate) frames: Vec<Pose>,
-    /// By place: the star type seen on its first visit, whose bearings give the place its frame.
-    pub(crate) first_seen: Vec<StarType>,
+    /// By place: the star seen on its first visit, whose bearings give the place its frame.
+    pub(crate) first_seen: Vec<StarId>,
 }
 
 impl Trail {
@@ -72,23 +89,23 @@ impl Trail {
     }
 }
 
-/// The mean difference of the bearings of corresponding ends.
-fn turn(exploration: &Exploration, seen: StarType, first: StarType, rotation: u32) -> f64 {
-    let (seen, first) = (&exploration.star_types()[seen.index()], &exploration.star_types()[first.index()]);
-    let degree = seen.star.degree();
-    let image = |olp: Olp| Olp((olp.0 + rotation) % degree);
-    let (of_seen, of_first) = (bearings(seen), bearings(first));
-    circular_mean(seen.star.olps().map(|olp| of_first[image(olp).index()] - of_seen[olp.index()]))
+/// By rotation of φ: the mean difference of the bearings of corresponding ends. None if there is no φ, for want of
+/// as many ends.
+fn turns(seen: &[f64], first: &[f64]) -> Vec<f64> {
+    let degree = seen.len();
+    let rotations = if degree == first.len() { 0..degree } else { 0..0 };
+    let turn = |rotation| circular_mean((0..degree).map(|end| first[(end + rotation) % degree] - seen[end]));
+    rotations.map(turn).collect()
 }
 
 /// The bearings of all ends of a star. Ends without bearings count as spread evenly around the place, clockwise, turned so
 /// that they agree best with those measured.
-fn bearings(named: &NamedStar) -> Vec<f64> {
-    let degree = f64::from(named.star.degree());
-    let spread = |olp: Olp| -std::f64::consts::TAU * f64::from(olp.0) / degree;
-    let measured = || named.star.olps().filter_map(|olp| Some(named.bearings[olp.index()]? - spread(olp)));
-    let offset = if measured().next().is_some() { circular_mean(measured()) } else { 0.0 };
-    named.star.olps().map(|olp| named.bearings[olp.index()].unwrap_or(spread(olp) + offset)).collect()
+fn bearings(star: &Star, measured: &[Option<f64>]) -> Vec<f64> {
+    let degree = f64::from(star.degree());
+    let spread = |olp: Olp| -std::f64::consts::TAU * olp.index() as f64 / degree;
+    let known = || star.olps().filter_map(|olp| Some(measured[olp.index()]? - spread(olp)));
+    let offset = if known().next().is_some() { circular_mean(known()) } else { 0.0 };
+    star.olps().map(|olp| measured[olp.index()].unwrap_or(spread(olp) + offset)).collect()
 }
 
 fn circular_mean(angles: impl Iterator<Item = f64>) -> f64 {

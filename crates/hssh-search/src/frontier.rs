@@ -1,140 +1,104 @@
-//! The queue of open hypotheses.
+//! Open hypotheses by how many travels they explain, and those set aside because nothing that matters can come of them.
 
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
 
-use hssh_topology::{Measure, Preference, Rank};
+use crate::leaf::{Appraise, Leaf};
 
-use crate::context::Context;
-use crate::crew::{Look, Scratch, Step, expand};
-use crate::report::Tally;
-use crate::tree::{Child, Cursor, NodeId, Tree};
-
-/// Nodes that one thread takes at a time.
-const PIECE: usize = 64;
-
-/// An open hypothesis: the lower its rank the sooner its turn, then the deeper, then the older.
-#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
-pub(crate) struct Turn {
-    pub(crate) rank: Rank,
-    pub(crate) depth: Reverse<u32>,
-    pub(crate) node: NodeId,
-    pub(crate) closed: bool,
-}
-
-/// Which number of an open hypothesis decides its turn.
-#[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub(crate) enum Order {
-    /// What its map measures.
-    Measure,
-    /// The least that any map grown from it can measure.
-    Bound,
-}
-
-/// A successor with what decides its turn.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Scored {
-    pub(crate) child: Child,
-    /// Its measure if it explains everything or the order is that of measures, else its bound.
-    pub(crate) score: Measure,
-    pub(crate) closed: bool,
-    /// Whether the travels that are left can use up its pending gateways.
-    pub(crate) closable: bool,
-}
-
-/// What the recursive step makes of a node.
-#[derive(Clone, Debug)]
-struct Expansion {
-    step: Step,
-    successors: Vec<Scored>,
-}
-
-/// Open hypotheses in the order of their turns.
+/// The open hypotheses that explain one number of travels.
 #[derive(Debug)]
-pub(crate) struct Frontier {
-    order: Order,
-    queue: BinaryHeap<Reverse<Turn>>,
+pub(crate) struct Level<A: Appraise> {
+    queue: BinaryHeap<Reverse<Leaf<A>>>,
+    /// How many came here so far.
+    arrivals: u32,
 }
 
-impl Frontier {
-    /// The queue that starts at the root.
-    pub(crate) fn from_root(order: Order, preference: Preference) -> Self {
-        let mut frontier = Frontier { order, queue: BinaryHeap::new() };
-        let rank = preference.rank(Measure::default());
-        frontier.push(Turn { rank, depth: Reverse(0), node: NodeId::ROOT, closed: false });
-        frontier
-    }
-
-    pub(crate) fn push(&mut self, turn: Turn) {
-        self.queue.push(Reverse(turn));
-    }
-
-    pub(crate) fn pop(&mut self) -> Option<Turn> {
-        self.queue.pop().map(|Reverse(turn)| turn)
-    }
-
-    pub(crate) fn peek(&self) -> Option<&Turn> {
-        self.queue.peek().map(|Reverse(turn)| turn)
-    }
-
-    pub(crate) fn bytes(&self) -> u64 {
-        (self.queue.len() * size_of::<Turn>()) as u64
-    }
-
-    /// Takes the next hypotheses of the least rank there is, at most that many, by age.
-    pub(crate) fn pop_equals(&mut self, most: usize) -> Vec<Turn> {
-        let mut turns: Vec<Turn> = self.pop().into_iter().collect();
-        while turns.len() < most && self.peek().is_some_and(|turn| turn.rank == turns[0].rank) {
-            turns.extend(self.pop());
+impl<A: Appraise> Level<A> {
+    pub(crate) fn push(&mut self, mut leaf: Leaf<A>) {
+        if leaf.arrival == u32::MAX {
+            leaf.arrival = self.arrivals;
+            self.arrivals += 1;
         }
-        turns.sort_unstable_by_key(|turn| turn.node);
-        turns
+        self.queue.push(Reverse(leaf));
     }
 
-    /// Expands hypotheses that have been taken: the successors of each, which are in the tree then.
-    pub(crate) fn expand(
-        &self,
-        turns: &[Turn],
-        tree: &mut Tree,
-        context: Context<'_>,
-        tally: &mut Tally,
-    ) -> Vec<(NodeId, Scored)> {
-        let (order, before): (Order, &Tree) = (self.order, tree);
-        let pieces: Vec<&[Turn]> = turns.chunks(PIECE).collect();
-        let expansions = context.crew.map(&pieces, context.experience, |cursor, piece| {
-            let expansion = |turn: &Turn| expansion_of(cursor, turn.node, order, before, context);
-            piece.iter().map(expansion).collect::<Vec<_>>()
-        });
-        let mut successors = Vec::new();
-        for (turn, expansion) in turns.iter().zip(expansions.into_iter().flatten()) {
-            let children = expansion.successors.iter().map(|scored| &scored.child);
-            tally.enter(turn.node, &expansion.step, children, tree);
-            context.watch.add_nodes(expansion.successors.len() as u64);
-            context.watch.explained(turn.depth.0 as usize);
-            successors
-                .extend(expansion.successors.into_iter().map(|scored| (tree.push(scored.child), scored)));
-        }
-        successors
+    pub(crate) fn pop(&mut self) -> Option<Leaf<A>> {
+        self.queue.pop().map(|Reverse(leaf)| leaf)
+    }
+
+    pub(crate) fn peek(&self) -> Option<&Leaf<A>> {
+        self.queue.peek().map(|Reverse(leaf)| leaf)
     }
 }
 
-fn expansion_of(
-    cursor: &mut Cursor,
-    node: NodeId,
-    order: Order,
-    tree: &Tree,
-    context: Context<'_>,
-) -> Expansion {
-    let travels_left = (context.travels() - tree.depth(node) - 1) as u32;
-    let (mut successors, mut scratch) = (Vec::new(), Scratch::default());
-    let outcome = expand(cursor, node, tree, context, &mut scratch, Look::Inside, |child, hypothesis| {
-        let map = &hypothesis.map;
-        let score = match order {
-            Order::Bound if travels_left > 0 => Measure::bound(map, travels_left),
-            Order::Bound | Order::Measure => Measure::of(map),
+/// All hypotheses that are not expanded.
+#[derive(Debug)]
+pub(crate) struct Frontier<A: Appraise> {
+    /// By number of travels explained.
+    pub(crate) levels: Vec<Level<A>>,
+    /// Nothing comes of them that matters, as far as is known.
+    parked: Vec<Leaf<A>>,
+}
+
+impl<A: Appraise> Frontier<A> {
+    pub(crate) fn new() -> Self {
+        Frontier { levels: Vec::new(), parked: Vec::new() }
+    }
+
+    /// Makes levels for so many travels.
+    pub(crate) fn make_room(&mut self, travels: usize) {
+        self.levels.resize_with(travels + 1, || Level { queue: BinaryHeap::new(), arrivals: 0 });
+    }
+
+    pub(crate) fn push(&mut self, leaf: Leaf<A>) {
+        self.levels[leaf.depth()].push(leaf);
+    }
+
+    /// Sets a hypothesis aside.
+    pub(crate) fn park(&mut self, leaf: Leaf<A>) {
+        self.parked.push(leaf);
+    }
+
+    /// Takes back what was set aside and may matter now.
+    pub(crate) fn unpark(&mut self, matters: impl Fn(&Leaf<A>) -> bool) {
+        for leaf in self.parked.extract_if(.., |leaf| matters(leaf)) {
+            self.levels[leaf.depth as usize].push(leaf);
+        }
+    }
+
+    /// Takes out everything there is.
+    pub(crate) fn drain(&mut self) -> Vec<Leaf<A>> {
+        let queued = self.levels.iter_mut().flat_map(|level| std::mem::take(&mut level.queue).into_vec());
+        let mut leaves: Vec<Leaf<A>> = queued.map(|Reverse(leaf)| leaf).collect();
+        leaves.append(&mut self.parked);
+        leaves
+    }
+
+    /// How many travels the hypothesis explains whose turn it is among all: of equal ones the deepest.
+    pub(crate) fn next_level(&self) -> Option<usize> {
+        let heads = self.levels.iter().enumerate();
+        let heads = heads.filter_map(|(depth, level)| Some((level.peek()?.key, Reverse(depth))));
+        heads.min().map(|(_, Reverse(depth))| depth)
+    }
+
+    /// Takes the next hypotheses of the least key there is, at most that many, the deepest first.
+    pub(crate) fn pop_equals(&mut self, most: usize) -> Vec<Leaf<A>> {
+        let Some(key) = self.next_level().and_then(|depth| self.levels[depth].peek()).map(|leaf| leaf.key)
+        else {
+            return Vec::new();
         };
-        let closable = map.pending_count() <= 2 * travels_left;
-        successors.push(Scored { child, score, closed: map.is_closed(), closable });
-    });
-    Expansion { step: Step { outcome, removals: scratch.removals }, successors }
+        let mut leaves = Vec::new();
+        for level in self.levels.iter_mut().rev() {
+            while leaves.len() < most && level.peek().is_some_and(|leaf| leaf.key == key) {
+                leaves.extend(level.pop());
+            }
+        }
+        leaves
+    }
+
+    /// All hypotheses, in no order that means anything.
+    pub(crate) fn leaves(&self) -> impl Iterator<Item = &Leaf<A>> {
+        let queued = self.levels.iter().flat_map(|level| &level.queue).map(|Reverse(leaf)| leaf);
+        queued.chain(&self.parked)
+    }
 }

@@ -1,44 +1,55 @@
 //! The tree of all maps that explain an exploration, and the searches through it.
 //!
-//! [`Mapper`] takes one observation at a time and can be asked for its maps at any time. It searches
-//! breadth-first, best-first, or best-first with a proof that nothing better exists;
-//! [`MapperBuilder::count`] goes through the same tree depth-first in constant memory. All of them expand their frontier on any
-//! number of threads with the same result in the same order.
+//! [`Mapper`] takes one visit at a time and can be asked for its maps at any time. What makes a map better than another
+//! is its [`Objective`]: the order of preference, or posterior probability (chapter 4). In which [`Order`] the tree is
+//! searched is another choice: breadth-first, best-first, cyclic best-first, or by a bound; the last two prove that nothing better
+//! exists. [`MapperBuilder::count`] goes through the same tree depth-first in constant memory. All of them share their
+//! frontier among any number of threads with the same result in the same order.
 //!
-//! [`PosteriorSearch`] takes a whole exploration with odometry, and finds its most probable maps with a proof (chapter 4).
+//! One step, one engine: [`Hypothesis::step`](hssh_topology::Hypothesis::step) says in which ways a travel follows, an objective
+//! appraises them, and an order takes the next one from the frontier.
 
-mod best_first;
+mod branch;
 mod branching;
-mod breadth_first;
+mod builder;
+mod certificate;
 mod context;
 mod count;
 mod crew;
+mod cursor;
 mod depth_first;
 mod distinction;
+mod engine;
 mod experience;
 mod frames;
 mod frontier;
+mod leaf;
 mod limits;
 mod mapper;
 mod measured;
+mod order;
 mod placement;
 mod posterior;
-mod proof;
+mod preference;
 mod report;
+mod step;
 mod tree;
 
+pub use branch::Branch;
 pub use branching::{BranchingSample, branching};
+pub use builder::{MapperBuilder, MapperError, Objective};
+pub use crew::{ThreadsError, useful_threads};
+pub use cursor::Cursor;
 pub use depth_first::{Visitor, depth_first};
 pub use distinction::{Distinction, Parting, Prediction, Test, distinguish};
-pub use experience::Experience;
+pub use experience::{Experience, Visit, VisitError};
 pub use limits::{Limits, Monitor, StopReason};
-pub use mapper::{Goal, Mapper, MapperBuilder, ObservationError, RankedMap, Strategy, ThreadsError};
+pub use mapper::Mapper;
 pub use measured::MeasurementError;
+pub use order::{Goal, Order, Proving};
 pub use placement::{Placement, PlacementError, place_by_odometry};
 pub use posterior::{
-    Appearance, Corridor, Cost, LINEAR_TRUST, MapPrior, Metrical, ModelError, PlacePrior, Posterior,
-    PosteriorError, PosteriorModel, PosteriorOrder, PosteriorReport, PosteriorSearch, ProbableMap, Proving,
+    Appearance, Corridor, Cost, LINEAR_TRUST, MapPrior, Metrical, ModelError, PlacePrior, PosteriorModel,
 };
-pub use proof::Certificate;
-pub use report::{FinalCounts, LevelCounts, Levels, Report};
-pub use tree::{Cursor, Derived, NodeId, Outcome, Tree};
+pub use report::{FinalCounts, LevelCounts, Levels, Probable, Proof, RankedMap, Report, Score};
+pub use tree::{NodeId, Tree};

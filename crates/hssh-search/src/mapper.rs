@@ -1,264 +1,78 @@
-//! The on-line mapper: one observation at a time, its maps at any time.
+//! The on-line mapper: one visit at a time, its maps at any time.
 
-use std::sync::Arc;
 use std::time::Instant;
 
-use hssh_causal::Exploration;
-use hssh_topology::{
-    Axioms, Hypothesis, Measure, Observation, Olp, Position, Preference, Star, StarCatalog, TopologicalMap,
-};
-use serde::{Deserialize, Serialize};
+use hssh_metrics::{PoseGraph, SolveError};
+use hssh_topology::{Hypothesis, Position, Preference};
 
-use crate::best_first::BestFirst;
-use crate::breadth_first::BreadthFirst;
+use crate::branch::Branch;
+use crate::builder::{MapperBuilder, MapperError, Objective};
+use crate::certificate;
 use crate::context::Context;
-use crate::count::count;
 use crate::crew::Crew;
-use crate::experience::Experience;
-use crate::limits::{Limits, Monitor, StopReason, Watch};
-use crate::proof::Proof;
-use crate::report::{FinalCounts, Report, Tally};
-use crate::tree::{Cursor, NodeId, Tree};
+use crate::cursor::Cursor;
+use crate::distinction::{Distinction, distinguish};
+use crate::engine::Engine;
+use crate::experience::{Experience, Visit, VisitError};
+use crate::leaf::Appraise;
+use crate::limits::{Limits, StopReason, Watch};
+use crate::measured::{MeasuredTravel, MeasurementError};
+use crate::order::Order;
+use crate::posterior::{ByPosterior, LINEAR_TRUST, Metrical, PosteriorModel};
+use crate::preference::ByPreference;
+use crate::report::{FinalCounts, Proof, RankedMap, Report};
+use crate::tree::{NodeId, Tree};
 
-/// What best-first is content with.
-#[derive(Clone, Copy, PartialEq, Eq, Debug, Default, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
-pub enum Goal {
-    /// Any map that explains everything.
-    #[default]
-    AnyMap,
-    /// A closed map: if the best map that explains everything is not closed, the search goes back and
-    /// on with the next best hypothesis. This is the thesis's backtracking (section 3.4).
-    ClosedMap,
-}
-
-impl Goal {
-    pub(crate) fn accepts(self, closed: bool) -> bool {
-        closed || self == Goal::AnyMap
-    }
-}
-
-/// How the tree is searched.
-#[derive(Clone, Copy, PartialEq, Eq, Debug, Default, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
-pub enum Strategy {
-    /// All hypotheses, level by level.
-    #[default]
-    BreadthFirst,
-    /// The best hypothesis by preference first. It may miss the optimum.
-    BestFirst(Goal),
-    /// The hypothesis with the least admissible bound first, until the answer is proved. The bound
-    /// looks ahead to the last travel, so that the search starts anew when there is another one.
-    Proof(Goal),
-}
-
-impl Strategy {
-    fn name(self) -> &'static str {
-        match self {
-            Strategy::BreadthFirst => "breadth-first",
-            Strategy::BestFirst(Goal::AnyMap) => "best-first",
-            Strategy::BestFirst(Goal::ClosedMap) => "best-first, back until closed",
-            Strategy::Proof(Goal::AnyMap) => "best-first with proof",
-            Strategy::Proof(Goal::ClosedMap) => "best-first with proof, closed maps",
-        }
-    }
-}
-
-/// The operating system gave no threads.
-#[derive(Debug, thiserror::Error)]
-#[error("cannot start the threads of the search: {0}")]
-pub struct ThreadsError(#[from] rayon::ThreadPoolBuildError);
-
-/// An observation that cannot have been made.
-#[derive(Clone, PartialEq, Eq, Debug, thiserror::Error)]
-pub enum ObservationError {
-    /// The star has no such end.
-    #[error("the star {star} has no end number {}", .olp.0)]
-    NoSuchEnd {
-        /// The star.
-        star: Star,
-        /// The end asked for.
-        olp: Olp,
-    },
-    /// The end is closed.
-    #[error("the end {} of the star {star} is closed", star.name(*.olp))]
-    ClosedEnd {
-        /// The star.
-        star: Star,
-        /// The closed end.
-        olp: Olp,
-    },
-}
-
-/// One explanation of everything observed, with what ranks it.
-#[derive(Clone, Copy, PartialEq, Debug)]
-pub struct RankedMap {
-    /// The hypothesis in the mapper's tree.
-    pub node: NodeId,
-    /// What preference looks at.
-    pub measure: Measure,
-    /// No gateway is pending.
-    pub closed: bool,
-    /// No gateway is pending on a path with a single place.
-    pub nearly_closed: bool,
-}
-
-impl RankedMap {
-    pub(crate) fn of(node: NodeId, map: &TopologicalMap) -> Self {
-        let measure = Measure::of(map);
-        RankedMap { node, measure, closed: map.is_closed(), nearly_closed: map.is_nearly_closed() }
-    }
-}
-
-/// How a [`Mapper`] is to search. The default is breadth-first with the thesis's axioms and
-/// preference, on one thread, without limits.
-#[derive(Clone, Debug)]
-pub struct MapperBuilder {
-    axioms: Axioms,
-    preference: Preference,
-    strategy: Strategy,
-    limits: Limits,
-    threads: usize,
-    monitor: Arc<Monitor>,
-}
-
-impl Default for MapperBuilder {
-    fn default() -> Self {
-        MapperBuilder {
-            axioms: Axioms::default(),
-            preference: Preference::default(),
-            strategy: Strategy::default(),
-            limits: Limits::default(),
-            threads: 1,
-            monitor: Arc::default(),
-        }
-    }
-}
-
-impl MapperBuilder {
-    /// The axioms that maps have to satisfy.
-    #[must_use]
-    pub fn axioms(self, axioms: Axioms) -> Self {
-        MapperBuilder { axioms, ..self }
-    }
-
-    /// The order of preference.
-    #[must_use]
-    pub fn preference(self, preference: Preference) -> Self {
-        MapperBuilder { preference, ..self }
-    }
-
-    /// How to search.
-    #[must_use]
-    pub fn strategy(self, strategy: Strategy) -> Self {
-        MapperBuilder { strategy, ..self }
-    }
-
-    /// When to stop before the end.
-    #[must_use]
-    pub fn limits(self, limits: Limits) -> Self {
-        MapperBuilder { limits, ..self }
-    }
-
-    /// How many threads, 0 for one per core. The result does not depend on it.
-    #[must_use]
-    pub fn threads(self, threads: usize) -> Self {
-        MapperBuilder { threads, ..self }
-    }
-
-    /// A window on the search for other threads.
-    #[must_use]
-    pub fn monitor(self, monitor: Arc<Monitor>) -> Self {
-        MapperBuilder { monitor, ..self }
-    }
-
-    /// A mapper that has seen its first star.
-    ///
-    /// # Errors
-    /// If the operating system gives no threads.
-    pub fn start(self, star: &Star) -> Result<Mapper, ThreadsError> {
-        let mut catalog = StarCatalog::new();
-        let start = catalog.intern(star);
-        self.resume(Experience { catalog, start, observations: Vec::new() })
-    }
-
-    /// A mapper that has been through a whole exploration, and has searched its tree.
-    ///
-    /// # Errors
-    /// If the operating system gives no threads.
-    pub fn explain(self, exploration: &Exploration) -> Result<Mapper, ThreadsError> {
-        let mut mapper = self.resume(Experience::from(exploration))?;
-        mapper.advance();
-        Ok(mapper)
-    }
-
-    /// Counts all hypotheses about an exploration and keeps none, in memory that does not grow with their
-    /// number. The strategy does not matter.
-    ///
-    /// A limit or an interruption ends the count early; the report then covers the branches of the
-    /// tree that were counted to their end, and is the same for any number of threads if it was the
-    /// limit on nodes.
-    ///
-    /// # Errors
-    /// If the operating system gives no threads.
-    pub fn count(self, exploration: &Exploration) -> Result<Report, ThreadsError> {
-        let experience = &Experience::from(exploration);
-        let crew = Crew::new(self.threads)?;
-        let watch = Watch::start(self.limits, &self.monitor);
-        let (axioms, preference) = (&self.axioms, self.preference);
-        Ok(count(Context { experience, axioms, preference, crew: &crew, watch: &watch }))
-    }
-
-    fn resume(self, experience: Experience) -> Result<Mapper, ThreadsError> {
-        let crew = Crew::new(self.threads)?;
-        let search = Search::new(self.strategy, self.preference);
-        Ok(Mapper {
-            options: self,
-            experience,
-            crew,
-            tree: Tree::new(),
-            search,
-            tally: Tally::new(),
-            stop: StopReason::Exhausted,
-            seconds: 0.0,
-            searched: 0,
-        })
-    }
-}
-
+/// A search for either objective.
 #[derive(Debug)]
 enum Search {
-    BreadthFirst(BreadthFirst),
-    BestFirst(BestFirst),
-    Proof(Proof),
+    Preference(Engine<ByPreference>),
+    Posterior(Box<Engine<ByPosterior>>),
 }
 
-impl Search {
-    fn new(strategy: Strategy, preference: Preference) -> Self {
-        match strategy {
-            Strategy::BreadthFirst => Search::BreadthFirst(BreadthFirst::default()),
-            Strategy::BestFirst(goal) => Search::BestFirst(BestFirst::new(goal, preference)),
-            Strategy::Proof(goal) => Search::Proof(Proof::new(goal, preference)),
+/// Does the same with the engine of either search.
+macro_rules! with_engine {
+    ($search:expr, $engine:ident => $work:expr) => {
+        match $search {
+            Search::Preference($engine) => $work,
+            Search::Posterior($engine) => $work,
         }
-    }
+    };
 }
 
 /// The topological mapper: it keeps the tree of maps that explain what it was told.
 ///
 /// ```
-/// use hssh_search::Mapper;
+/// use hssh_search::{Mapper, Visit};
 /// use hssh_topology::{Olp, Star};
 ///
 /// // A corridor with a dead end on either side, walked to the end and back.
 /// let west: Star = "0+ (0-)".parse()?;
 /// let east: Star = "(0+) 0-".parse()?;
 /// let mut mapper = Mapper::builder().start(&west)?;
-/// mapper.observe(Olp(0), Olp(1), &east)?;
-/// mapper.observe(Olp(1), Olp(0), &west)?;
+/// mapper.observe(Visit::new(Olp(0), Olp(1), &east))?;
+/// mapper.observe(Visit::new(Olp(1), Olp(0), &west))?;
 /// mapper.advance();
 /// let maps = mapper.maps(10);
 /// assert_eq!(maps.len(), 1);
 /// assert_eq!((maps[0].measure.f3, maps[0].closed), (2, true));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+///
+/// With measured travels, it finds the most probable maps:
+///
+/// ```
+/// use hssh_search::{Mapper, Order, PosteriorModel};
+/// use hssh_world::{DriftModel, grid, snake};
+///
+/// let world = grid(3, 3, 8.0)?;
+/// let route = world.route_through(&snake(3, 3))?;
+/// let exploration = world.explore_with_odometry(&route, &DriftModel::default(), 1)?;
+/// let model = PosteriorModel::evidence(&exploration).ok_or("no distance was measured")?;
+/// let mapper = Mapper::builder().posterior(model).order(Order::Cyclic).explain(&exploration)?;
+/// let best = &mapper.maps(1)[0];
+/// assert_eq!(best.probable.as_ref().map(|probable| probable.poses.len()), Some(9));
+/// assert!(mapper.report().is_optimal);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 #[derive(Debug)]
@@ -266,9 +80,7 @@ pub struct Mapper {
     options: MapperBuilder,
     experience: Experience,
     crew: Crew,
-    tree: Tree,
     search: Search,
-    tally: Tally,
     stop: StopReason,
     seconds: f64,
     /// How many observations there were when the search last went on.
@@ -282,68 +94,89 @@ impl Mapper {
         MapperBuilder::default()
     }
 
-    /// One travel more: the robot left by an end of the star it saw last and came into a place with
-    /// this star by an end of it. The maps follow with [`advance`](Self::advance).
+    /// A mapper that has not searched yet.
+    pub(crate) fn new(options: MapperBuilder, experience: Experience) -> Result<Self, MapperError> {
+        if let Objective::Posterior(model) = options.objective {
+            model.check()?;
+        }
+        let crew = Crew::new(options.threads)?;
+        let watch = Watch::for_tree(options.limits, &options.monitor);
+        let context =
+            Context { experience: &experience, axioms: &options.axioms, crew: &crew, watch: &watch };
+        let MapperBuilder { order, goal, proving, .. } = options;
+        let search = match options.objective {
+            Objective::Preference(preference) => {
+                let appraiser = ByPreference { preference, order };
+                Search::Preference(Engine::new(appraiser, order, goal, proving, context)?)
+            }
+            Objective::Posterior(model) => {
+                let appraiser = ByPosterior::new(model, options.appearance.clone(), order);
+                Search::Posterior(Box::new(Engine::new(appraiser, order, goal, proving, context)?))
+            }
+        };
+        let searched = experience.observations.len();
+        let stop = StopReason::NotSearched;
+        Ok(Mapper { options, experience, crew, search, stop, seconds: 0.0, searched })
+    }
+
+    /// One visit more. The maps follow with [`advance`](Self::advance).
     ///
     /// # Errors
-    /// If an end does not exist or is closed.
-    pub fn observe(&mut self, exit: Olp, entry: Olp, star: &Star) -> Result<(), ObservationError> {
-        let last = self.experience.observations.last();
-        let here = last.map_or(self.experience.start, |observation| observation.star);
-        usable(self.experience.catalog.star(here), exit)?;
-        usable(star, entry)?;
-        let star = self.experience.catalog.intern(star);
-        self.experience.observations.push(Observation { exit, entry, star });
+    /// If it cannot have happened, or if the search asks for a measurement that is not there. The mapper is as it was
+    /// then.
+    pub fn observe(&mut self, visit: Visit) -> Result<(), VisitError> {
+        self.experience.push(&visit)?;
+        if let Err(problem) = self.check_last_travel() {
+            self.experience.pop();
+            return Err(problem.into());
+        }
+        if let Search::Posterior(engine) = &mut self.search {
+            let appearance = &mut engine.appraiser.appearance;
+            while appearance.visits() < self.experience.observations.len() {
+                appearance.push(Vec::new());
+            }
+            if appearance.visits() == self.experience.observations.len() {
+                appearance.push(visit.likeness);
+            }
+        }
         self.stop = StopReason::NotSearched;
         Ok(())
     }
 
-    /// Searches on until everything observed is explained, or a limit stops it. It may be called
-    /// again after a limit, with other [limits](Self::set_limits) or a [reset](Monitor::reset)
+    /// Whether the last travel is measured as the search asks.
+    fn check_last_travel(&self) -> Result<(), MeasurementError> {
+        let Objective::Posterior(PosteriorModel { metrical, .. }) = self.options.objective else {
+            return Ok(());
+        };
+        if metrical == Metrical::Ignored {
+            return Ok(());
+        }
+        let travel = self.experience.observations.len();
+        let odometry = self.experience.odometry(travel - 1).ok_or(MeasurementError::Missing { travel })?;
+        let measured = MeasuredTravel::of(odometry);
+        measured.map(drop).map_err(|problem| MeasurementError::Covariance { travel, problem })
+    }
+
+    /// Searches on until everything observed is explained as well as was asked for, or a limit stops it. It may be called
+    /// again after a limit, with other [limits](Self::set_limits) or a [reset](crate::Monitor::reset)
     /// monitor, to go on where it stopped; breadth-first goes on from its last complete level.
     pub fn advance(&mut self) -> StopReason {
         let started = Instant::now();
         let travels = self.experience.observations.len();
         let watch = Watch::for_tree(self.options.limits, &self.options.monitor);
-        let MapperBuilder { axioms, preference, strategy, .. } = &self.options;
         let context = Context {
             experience: &self.experience,
-            axioms,
-            preference: *preference,
+            axioms: &self.options.axioms,
             crew: &self.crew,
             watch: &watch,
         };
-        let is_news = std::mem::replace(&mut self.searched, travels) < travels;
-        let span = tracing::info_span!("search", strategy = strategy.name(), travels);
+        let span = tracing::info_span!("search", strategy = self.options.strategy(), travels);
         let _entered = span.enter();
-        self.stop = match &mut self.search {
-            Search::BreadthFirst(search) => loop {
-                if search.depth == travels {
-                    break StopReason::Exhausted;
-                }
-                let grown = search.grow(&mut self.tree, context, &mut self.tally);
-                tracing::debug!(explained = search.depth, fringe = search.fringe.len(), "level");
-                if let Err(reason) = grown {
-                    break reason;
-                }
-            },
-            Search::BestFirst(search) => {
-                if is_news {
-                    search.reopen();
-                }
-                search.advance(&mut self.tree, context, &mut self.tally)
-            }
-            Search::Proof(search) => {
-                if is_news {
-                    // Bounds look ahead to the last travel: another one makes them all anew.
-                    let Strategy::Proof(goal) = *strategy else { unreachable!("the search is a proof") };
-                    *search = Proof::new(goal, *preference);
-                    (self.tree, self.tally, self.seconds) = (Tree::new(), Tally::new(), 0.0);
-                    self.crew.recall();
-                }
-                search.advance(&mut self.tree, context, &mut self.tally)
-            }
-        };
+        self.searched = travels;
+        self.stop = with_engine!(&mut self.search, engine => {
+            engine.observe(context).expect("every travel was checked when it was observed");
+            engine.advance(context)
+        });
         self.seconds += started.elapsed().as_secs_f64();
         self.stop
     }
@@ -354,22 +187,31 @@ impl Mapper {
     }
 
     /// How many travels the maps explain: fewer than were observed if a limit stopped the search, and
-    /// none if best-first has no map yet.
+    /// none if there is no map of everything yet; breadth-first has those of its last complete level.
     #[must_use]
     pub fn explained(&self) -> usize {
-        let has_maps = match &self.search {
-            Search::BreadthFirst(search) => return search.depth,
-            Search::BestFirst(search) => !search.maps().is_empty(),
-            Search::Proof(search) => !search.maps().is_empty(),
-        };
-        if has_maps || self.stop.is_complete() { self.searched } else { 0 }
+        if self.options.order == Order::BreadthFirst {
+            return with_engine!(&self.search, engine => engine.fringe.depth);
+        }
+        if !self.is_empty() || self.stop.is_complete() { self.searched } else { 0 }
     }
 
-    /// The best maps that explain everything, in order of preference and then of creation, at most
+    /// Whether no map was found.
+    pub(crate) fn is_empty(&self) -> bool {
+        with_engine!(&self.search, engine => engine.found.is_empty())
+    }
+
+    /// How many travels the first hypothesis explains that has no computable layout, and why it has none.
+    pub(crate) fn unsolvable(&self) -> Option<(usize, &SolveError)> {
+        let unsolvable = with_engine!(&self.search, engine => &engine.unsolvable);
+        unsolvable.as_ref().map(|(travels, problem)| (*travels, problem))
+    }
+
+    /// The best maps that explain everything, equal ones in the order of their branches, at most
     /// that many. After a limit they explain the first [`explained`](Self::explained) travels.
     #[must_use]
     pub fn maps(&self, most: usize) -> Vec<RankedMap> {
-        self.survey(most).1
+        self.answer(most).1
     }
 
     /// The account of the search so far.
@@ -381,50 +223,103 @@ impl Mapper {
     /// The account of the search and the best maps, for the price of one of them.
     #[must_use]
     pub fn answer(&self, most: usize) -> (Report, Vec<RankedMap>) {
-        let (finals, maps) = self.survey(most);
-        (self.report_on(finals), maps)
-    }
-
-    fn survey(&self, most: usize) -> (FinalCounts, Vec<RankedMap>) {
-        let preference = self.options.preference;
-        let nodes = match &self.search {
-            Search::BreadthFirst(search) => {
-                return search.survey(&self.tree, &self.experience, &self.crew, preference, most);
-            }
-            Search::BestFirst(search) => search.maps(),
-            Search::Proof(search) => search.maps(),
+        let watch = Watch::for_tree(self.options.limits, &self.options.monitor);
+        let context = Context {
+            experience: &self.experience,
+            axioms: &self.options.axioms,
+            crew: &self.crew,
+            watch: &watch,
         };
-        let mut counts = FinalCounts::default();
-        let mut cursor = Cursor::new(&self.experience);
-        let mut maps: Vec<RankedMap> = Vec::new();
-        for node in nodes {
-            let map = &cursor.go_to(node, &self.tree, &self.experience).map;
-            counts.record(map, preference);
-            maps.push(RankedMap::of(node, map));
+        match &self.search {
+            Search::Preference(engine) => {
+                let preference = engine.appraiser.preference;
+                if self.options.order == Order::BreadthFirst {
+                    let (finals, maps) = engine.fringe.survey(&engine.tree, context, preference, most);
+                    return (self.report_on(engine, finals), maps);
+                }
+                let (finals, maps) = survey(engine, preference, &self.experience, most);
+                (self.report_on(engine, finals), maps)
+            }
+            Search::Posterior(engine) => {
+                let (mut finals, mut maps) =
+                    survey(engine, Preference::default(), &self.experience, usize::MAX);
+                let proof = proof(engine);
+                let least = maps.first().and_then(RankedMap::nats).unwrap_or(0.0);
+                let weight = |map: &RankedMap| map.nats().map_or(0.0, |nats| (least - nats).exp());
+                let all: f64 = maps.iter().map(weight).sum();
+                for map in &mut maps {
+                    let at_most = weight(map) / all;
+                    if let Some(probable) = &mut map.probable {
+                        probable.at_most = at_most;
+                        probable.at_least = at_most * (1.0 - proof.rest.unwrap_or(0.0));
+                    }
+                }
+                finals.best = maps.first().map(|map| map.measure);
+                let tie = engine.found.first().map(|best| engine.appraiser.reach(best.leaf.key, 0.0));
+                finals.optimal = engine.found.iter().filter(|found| Some(found.leaf.key) <= tie).count() as u64;
+                maps.truncate(most);
+                (self.report_on(engine, finals), maps)
+            }
         }
-        maps.sort_by_key(|map| (preference.rank(map.measure), map.node));
-        maps.truncate(most);
-        (counts, maps)
     }
 
     /// The hypothesis of a node of the tree.
     #[must_use]
     pub fn hypothesis(&self, node: NodeId) -> Hypothesis {
         let mut cursor = Cursor::new(&self.experience);
-        cursor.go_to(node, &self.tree, &self.experience);
+        cursor.go_to(node, self.tree(), &self.experience);
         cursor.into_hypothesis()
+    }
+
+    /// What identifies the hypothesis of a node anywhere: the choices that lead to it.
+    #[must_use]
+    pub fn branch(&self, node: NodeId) -> Branch {
+        self.tree().choices(node)
     }
 
     /// Where the robot was in the map of a node, after each travel that it explains, the start first.
     #[must_use]
     pub fn visits(&self, node: NodeId) -> Vec<Position> {
-        Cursor::new(&self.experience).visits(node, &self.tree, &self.experience)
+        Cursor::new(&self.experience).visits(node, self.tree(), &self.experience)
+    }
+
+    /// What tells two maps apart.
+    #[must_use]
+    pub fn distinguish(&self, first: &RankedMap, second: &RankedMap) -> Distinction {
+        let [first, second] = [first.node, second.node];
+        let hypotheses = [&self.hypothesis(first), &self.hypothesis(second)];
+        distinguish(&self.experience.catalog, hypotheses, [&self.visits(first), &self.visits(second)])
+    }
+
+    /// The pose graph of a map at its layout: a pose for each place, an edge for each travel, and the first pose
+    /// anchored. `None` if nothing was laid out.
+    #[must_use]
+    pub fn pose_graph(&self, map: &RankedMap) -> Option<PoseGraph> {
+        let Search::Posterior(engine) = &self.search else { return None };
+        engine.appraiser.graph(self.visits(map.node), &map.probable.as_ref()?.poses)
+    }
+
+    /// What the proof rests on, as text that can be checked by itself: the branches left open with their bounds, the maps found, the
+    /// parameters. `None` if the search has no bound, or if nothing is proved.
+    #[must_use]
+    pub fn certificate(&self, exploration: &hssh_causal::Exploration) -> Option<String> {
+        if !self.report().is_optimal {
+            return None;
+        }
+        Some(match &self.search {
+            Search::Preference(engine) => {
+                certificate::by_preference(engine, &self.options, &self.experience, exploration)
+            }
+            Search::Posterior(engine) => {
+                certificate::by_posterior(engine, &self.options, proof(engine), exploration)
+            }
+        })
     }
 
     /// The tree of all hypotheses made.
     #[must_use]
     pub fn tree(&self) -> &Tree {
-        &self.tree
+        with_engine!(&self.search, engine => &engine.tree)
     }
 
     /// What the mapper was told.
@@ -433,47 +328,76 @@ impl Mapper {
         &self.experience
     }
 
-    fn report_on(&self, finals: FinalCounts) -> Report {
-        let levels = self.tally.levels.clone();
-        let nodes = levels.iter().map(|level| level.nodes).sum();
-        let expanded = self.tally.expanded;
+    fn report_on<A: Appraise>(&self, engine: &Engine<A>, finals: FinalCounts) -> Report {
+        let levels = engine.tally.levels.clone();
+        let order = self.options.order;
+        let has_bound = A::WEIGHS || matches!(order, Order::Cyclic | Order::Proof);
+        let proof = has_bound.then(|| proof(engine));
+        let is_exhausted = order == Order::BreadthFirst && self.stop == StopReason::Exhausted;
         Report {
-            strategy: self.options.strategy.name(),
+            strategy: self.options.strategy(),
             stop: self.stop,
             travels: self.experience.observations.len() as u64,
             explained: self.explained() as u64,
-            nodes,
+            nodes: levels.iter().map(|level| level.nodes).sum(),
             maps: levels.iter().map(|level| level.maps).sum(),
             refuted: levels.iter().map(|level| level.refuted).sum(),
-            expanded,
+            expanded: engine.tally.expanded,
+            solved: engine.solved,
             finals,
-            rejected: match &self.search {
-                Search::BreadthFirst(_) => 0,
-                Search::BestFirst(search) => search.rejected(),
-                Search::Proof(search) => search.rejected(),
-            },
-            is_optimal: match self.stop {
-                StopReason::Exhausted => matches!(self.search, Search::BreadthFirst(_)),
-                stop => stop == StopReason::Proved,
-            },
-            removals: self.tally.removals,
-            certificate: match &self.search {
-                Search::Proof(search) => Some(search.certificate(expanded)),
-                _ => None,
-            },
+            rejected: engine.rejected.len() as u64,
+            is_optimal: proof.map_or(is_exhausted, |proof| proof.proved),
+            removals: engine.tally.removals,
+            proof,
             levels,
             seconds: self.seconds,
-            tree_bytes: self.tree.bytes(),
+            bytes: engine.tree.bytes() + engine.bytes,
         }
     }
 }
 
-fn usable(star: &Star, olp: Olp) -> Result<(), ObservationError> {
-    if olp.0 >= star.degree() {
-        return Err(ObservationError::NoSuchEnd { star: star.clone(), olp });
+/// The maps that were found, ranked, with counts over all of them.
+fn survey<A: Appraise>(
+    engine: &Engine<A>,
+    preference: Preference,
+    experience: &Experience,
+    most: usize,
+) -> (FinalCounts, Vec<RankedMap>) {
+    let mut counts = FinalCounts::default();
+    let mut cursor = Cursor::new(experience);
+    let mut maps = Vec::new();
+    for found in &engine.found {
+        let node = found.leaf.node;
+        let is_listed = maps.len() < most;
+        let visits = (is_listed && A::WEIGHS).then(|| cursor.visits(node, &engine.tree, experience));
+        let map = &cursor.go_to(node, &engine.tree, experience).map;
+        counts.record(map, preference);
+        if is_listed {
+            let probable = visits.and_then(|visits| engine.appraiser.probable(&found.leaf, visits));
+            maps.push(RankedMap { probable, ..RankedMap::of(node, map) });
+        }
     }
-    if star.is_travelable(olp) {
-        return Ok(());
+    (counts, maps)
+}
+
+/// What is known about the answer of a search whose keys are bounds.
+fn proof<A: Appraise>(engine: &Engine<A>) -> Proof {
+    let Engine { appraiser, found, factors, reach, .. } = engine;
+    let unsolvable = engine.unsolvable.is_some();
+    let best = found.first().map(|found| found.leaf.key);
+    let open_bound = engine.open_bound();
+    let beats_rest = |best| open_bound.is_none_or(|bound| bound > appraiser.reach(best, 0.0));
+    // A promise that was too high does no harm where even the truth is too high.
+    let within_reach = factors.iter().filter(|(bound, _)| reach.is_none() || bound <= reach);
+    let linear_factor = within_reach.map(|&(_, factor)| factor).fold(1.0, f64::min);
+    let is_sound = open_bound.is_none() || linear_factor >= LINEAR_TRUST;
+    Proof {
+        best: best.map(|best| appraiser.score(best)),
+        open_bound: open_bound.map(|bound| appraiser.score(bound)),
+        proved: is_sound && !unsolvable && best.map_or(open_bound.is_none(), beats_rest),
+        // Nobody knows what the hypotheses weigh that have no layout.
+        rest: engine.rest().map(|rest| if unsolvable { 1.0 } else { rest }),
+        linear_factor,
+        unsolvable,
     }
-    Err(ObservationError::ClosedEnd { star: star.clone(), olp })
 }

@@ -1,10 +1,11 @@
 //! The measured travels of an exploration, ready for hypotheses to be laid out by.
 
-use hssh_causal::{Exploration, Odometry};
+use hssh_causal::Odometry;
 use hssh_metrics::{Covariance, Edge, Pose, PoseGraph, PoseId, UncertaintyError};
 use hssh_topology::Position;
 use nalgebra::{Matrix3, vector};
 
+use crate::experience::Experience;
 use crate::frames::{Frames, Trail};
 
 /// One measured travel: the arrival frame in the departure frame, as the robot saw the two.
@@ -38,8 +39,8 @@ impl MeasuredTravel {
     }
 }
 
-/// All travels of an exploration with the frames of its visits.
-#[derive(Clone, Debug)]
+/// All travels of an experience with the frames of its visits. It grows with the experience.
+#[derive(Clone, Debug, Default)]
 pub(crate) struct Measured {
     pub(crate) travels: Vec<MeasuredTravel>,
     pub(crate) frames: Frames,
@@ -87,18 +88,19 @@ impl PlacedTravel {
 }
 
 impl Measured {
+    /// Takes notice of the travels that are new.
+    ///
     /// # Errors
     /// If a travel has no odometry, or a covariance that cannot be inverted.
-    pub(crate) fn of(exploration: &Exploration) -> Result<Self, MeasurementError> {
-        let travel = |(index, travel): (usize, &hssh_causal::Travel)| {
-            let travel_number = index + 1;
-            let odometry =
-                travel.odometry.as_ref().ok_or(MeasurementError::Missing { travel: travel_number })?;
-            MeasuredTravel::of(odometry)
-                .map_err(|problem| MeasurementError::Covariance { travel: travel_number, problem })
-        };
-        let travels = exploration.travels().iter().enumerate().map(travel).collect::<Result<_, _>>()?;
-        Ok(Measured { travels, frames: Frames::of(exploration) })
+    pub(crate) fn observe(&mut self, experience: &Experience) -> Result<(), MeasurementError> {
+        for index in self.travels.len()..experience.observations.len() {
+            let travel = index + 1;
+            let odometry = experience.odometry(index).ok_or(MeasurementError::Missing { travel })?;
+            let measured = MeasuredTravel::of(odometry);
+            self.travels.push(measured.map_err(|problem| MeasurementError::Covariance { travel, problem })?);
+        }
+        self.frames.observe(experience);
+        Ok(())
     }
 
     /// The pose graph of a hypothesis about the first travels: one pose per place, one edge per travel

@@ -7,6 +7,7 @@ use hssh_metrics::{
 };
 use hssh_topology::Position;
 
+use crate::experience::Experience;
 use crate::frames::Frames;
 use crate::measured::MeasuredTravel;
 
@@ -54,7 +55,7 @@ pub fn place_by_odometry(
     exploration: &Exploration,
     visits: &[Position],
 ) -> Result<Option<Placement>, PlacementError> {
-    let trail = Frames::of(exploration).trail(visits.to_vec());
+    let trail = Frames::of(&Experience::from(exploration)).trail(visits.to_vec());
     let mut graph = PoseGraph::new();
     for _ in &trail.first_seen {
         graph.add_pose(Pose::default());

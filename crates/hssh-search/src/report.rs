@@ -2,13 +2,96 @@
 
 use std::fmt;
 
-use hssh_topology::{Axiom, Measure, Preference, Removals, TopologicalMap};
+use hssh_metrics::Pose;
+use hssh_topology::{Axiom, Measure, Outcome, Preference, Removals, TopologicalMap};
 use serde::Serialize;
 
-use crate::crew::Step;
+use crate::leaf::{Appraise, Grown, Leaf};
 use crate::limits::StopReason;
-use crate::proof::Certificate;
-use crate::tree::{Child, NodeId, Outcome, Tree};
+use crate::posterior::Cost;
+use crate::tree::{NodeId, Tree};
+
+/// What a map is worth, or what maps are worth at least: the less, the better.
+#[derive(Clone, Copy, PartialEq, Debug, Serialize)]
+#[serde(untagged)]
+pub enum Score {
+    /// By preference.
+    Measure(Measure),
+    /// Minus ln of the posterior probability, up to a number that all maps share.
+    Nats(f64),
+}
+
+impl fmt::Display for Score {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Score::Measure(measure) => measure.fmt(f),
+            Score::Nats(nats) => write!(f, "{nats:.3} nats"),
+        }
+    }
+}
+
+/// What a search with a bound knows about its answer.
+#[derive(Clone, Copy, PartialEq, Debug, Serialize)]
+pub struct Proof {
+    /// What the best map found is worth.
+    pub best: Option<Score>,
+    /// What any map that was not found is worth at best; nothing if there is none left.
+    pub open_bound: Option<Score>,
+    /// Whether no map that was not found is as good as the best one.
+    pub proved: bool,
+    /// The probability of all maps that were not found, at most, where there are probabilities.
+    pub rest: Option<f64>,
+    /// The least factor by which χ² rose of what the linear estimate promised, among the hypotheses that may still lead
+    /// to maps that matter. The bound relies on [`LINEAR_TRUST`](crate::LINEAR_TRUST) where headings are known well enough: a lower
+    /// factor there invalidates the proof.
+    pub linear_factor: f64,
+    /// Whether some hypothesis was left out because its layout cannot be computed: some odometry is out of all
+    /// proportion. Nothing is proved then.
+    pub unsolvable: bool,
+}
+
+/// One explanation of everything observed, with what ranks it.
+#[derive(Clone, PartialEq, Debug)]
+pub struct RankedMap {
+    /// The hypothesis in the mapper's tree.
+    pub node: NodeId,
+    /// What preference looks at.
+    pub measure: Measure,
+    /// No gateway is pending.
+    pub closed: bool,
+    /// No gateway is pending on a path with a single place.
+    pub nearly_closed: bool,
+    /// How probable it is, if that ranks it.
+    pub probable: Option<Probable>,
+}
+
+/// What makes a map probable.
+#[derive(Clone, PartialEq, Debug)]
+pub struct Probable {
+    /// Minus the logarithm of its posterior probability up to a factor that all maps share.
+    pub cost: Cost,
+    /// Its probability if the maps that were not found weigh as much as they can: what it has at least.
+    pub at_least: f64,
+    /// Its probability among all maps that were found: what it has at most.
+    pub at_most: f64,
+    /// By place: the frame in which the bearings of the star seen on the first visit are given, in the frame of
+    /// the first place. Empty if measurements were ignored.
+    pub poses: Vec<Pose>,
+}
+
+impl RankedMap {
+    pub(crate) fn of(node: NodeId, map: &TopologicalMap) -> Self {
+        let measure = Measure::of(map);
+        let (closed, nearly_closed) = (map.is_closed(), map.is_nearly_closed());
+        RankedMap { node, measure, closed, nearly_closed, probable: None }
+    }
+
+    /// What it costs in nats; nothing if it is ranked by preference.
+    #[must_use]
+    pub fn nats(&self) -> Option<f64> {
+        self.probable.as_ref().map(|probable| probable.cost.total())
+    }
+}
 
 /// The nodes that explain the same number of travels.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Default, Serialize)]
@@ -45,28 +128,28 @@ impl Tally {
         Tally { levels: vec![root], removals: Removals::default(), expanded: 0 }
     }
 
-    /// A node was expanded; its successors are about to be added to the tree.
-    pub(crate) fn enter<'a>(
-        &mut self,
-        node: NodeId,
-        step: &Step,
-        successors: impl ExactSizeIterator<Item = &'a Child>,
-        tree: &mut Tree,
-    ) {
-        tree.set_outcome(node, step.outcome);
-        let depth = tree.depth(node);
-        self.removals += step.removals;
+    /// A leaf was expanded; its successors are about to be added to the tree.
+    pub(crate) fn enter<A: Appraise>(&mut self, leaf: &Leaf<A>, grown: &Grown<A>, tree: &mut Tree) {
+        tree.set_outcome(leaf.node, grown.outcome);
+        self.removals += grown.removals;
         self.expanded += 1;
-        self.levels[depth].refuted += u64::from(step.outcome == Outcome::Refuted);
-        if successors.len() == 0 {
+        self.levels[leaf.depth()].refuted += u64::from(grown.outcome == Outcome::Refuted);
+        if grown.successors.is_empty() {
             return;
         }
-        if self.levels.len() == depth + 1 {
-            self.levels.push(LevelCounts::default());
+        self.make_level(leaf.depth() + 1);
+        let level = &mut self.levels[leaf.depth() + 1];
+        level.nodes += grown.successors.len() as u64;
+        if grown.outcome == Outcome::Expanded {
+            level.maps += grown.successors.len() as u64;
         }
-        let level = &mut self.levels[depth + 1];
-        level.nodes += successors.len() as u64;
-        level.maps += successors.filter(|child| child.growth.is_some()).count() as u64;
+    }
+
+    /// Makes room for the nodes that explain so many travels.
+    pub(crate) fn make_level(&mut self, depth: usize) {
+        if self.levels.len() <= depth {
+            self.levels.resize(depth + 1, LevelCounts::default());
+        }
     }
 }
 
@@ -126,8 +209,8 @@ impl FinalCounts {
 /// The account of a search. Field names are the names in the program's JSON.
 #[derive(Clone, PartialEq, Debug, Serialize)]
 pub struct Report {
-    /// How the tree was searched.
-    pub strategy: &'static str,
+    /// How the tree was searched, and for what.
+    pub strategy: String,
     /// Why the search stopped.
     pub stop: StopReason,
     /// How many travels there are to explain.
@@ -142,24 +225,26 @@ pub struct Report {
     pub refuted: u64,
     /// Nodes that the recursive step was applied to.
     pub expanded: u64,
+    /// Layouts found by least squares.
+    pub solved: u64,
     /// Counts over the maps that explain what is explained.
     #[serde(flatten)]
     pub finals: FinalCounts,
     /// Hypotheses that were turned down because a closed map was asked for and none can come of them:
     /// maps that explain everything, and with proof also those too far from closed to become it.
     pub rejected: u64,
-    /// Whether the best maps are known to be the best of all: whether nothing was left out.
+    /// Whether the best maps are known to be the best of all.
     pub is_optimal: bool,
     /// Successors that each axiom removed.
     pub removals: Removals,
-    /// What best-first with proof proved.
-    pub certificate: Option<Certificate>,
+    /// What is known about the answer, if the search has a bound.
+    pub proof: Option<Proof>,
     /// By number of travels explained, the root first.
     pub levels: Vec<LevelCounts>,
     /// Time spent searching.
     pub seconds: f64,
-    /// Bytes that the tree takes; 0 if none is kept.
-    pub tree_bytes: u64,
+    /// Bytes that the tree and the open hypotheses take; 0 if none are kept.
+    pub bytes: u64,
 }
 
 impl fmt::Display for Report {
@@ -170,6 +255,8 @@ impl fmt::Display for Report {
             ("nodes", self.nodes),
             ("maps", self.maps),
             ("refuted", self.refuted),
+            ("expanded", self.expanded),
+            ("layouts solved", self.solved),
             ("final maps", finals.final_maps),
             ("nearly closed", finals.nearly_closed),
             ("closed", finals.closed),
@@ -177,7 +264,9 @@ impl fmt::Display for Report {
             (if self.is_optimal { "optimal" } else { "share the best rank" }, finals.optimal),
         ];
         for (name, count) in rows {
-            writeln!(f, "  {name:<32}{count:>14}")?;
+            if count > 0 || name != "layouts solved" {
+                writeln!(f, "  {name:<32}{count:>14}")?;
+            }
         }
         if let Some(best) = finals.best {
             writeln!(f, "  best          {best}")?;
@@ -188,10 +277,19 @@ impl fmt::Display for Report {
                 writeln!(f, "  removed: {:<23}{removed:>14}", axiom.to_string())?;
             }
         }
-        if let Some(certificate) = &self.certificate {
-            writeln!(f, "  certificate   {certificate}")?;
-        }
-        Ok(())
+        self.proof.map_or(Ok(()), |proof| proof.fmt(f))
+    }
+}
+
+impl fmt::Display for Proof {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let show = |score: Option<Score>| score.map_or("none".to_owned(), |score| score.to_string());
+        let verdict = if self.proved { "proved" } else { "not proved" };
+        let (best, open) = (show(self.best), show(self.open_bound));
+        writeln!(f, "  {verdict}: the best map is worth {best}; what was not looked at, at best {open}")?;
+        let Some(rest) = self.rest else { return Ok(()) };
+        writeln!(f, "  χ² rose by at least {:.2} of the linear estimate", self.linear_factor)?;
+        writeln!(f, "  all maps not found have a probability of at most {rest:.2e} together")
     }
 }
 
@@ -205,9 +303,9 @@ impl fmt::Display for Levels<'_> {
         for (travels, level) in self.0.levels.iter().enumerate() {
             writeln!(f, "  {travels:>7}{:>14}{:>14}{:>14}", level.nodes, level.maps, level.refuted)?;
         }
-        let Report { nodes, expanded, seconds, tree_bytes, .. } = *self.0;
-        let (per_second, per_node) = (nodes as f64 / seconds, tree_bytes as f64 / nodes as f64);
+        let Report { nodes, expanded, seconds, bytes, .. } = *self.0;
+        let (per_second, per_node) = (nodes as f64 / seconds, bytes as f64 / nodes as f64);
         writeln!(f, "  {expanded} nodes expanded in {seconds:.3} s, {per_second:.0} nodes made a second")?;
-        writeln!(f, "  the tree takes {tree_bytes} bytes, {per_node:.1} a node")
+        writeln!(f, "  the tree takes {bytes} bytes, {per_node:.1} a node")
     }
 }

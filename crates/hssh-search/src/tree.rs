@@ -1,44 +1,30 @@
-//! The tree of hypotheses: each node a small difference to its parent, and cursors that visit them.
+//! The tree of hypotheses: each node a small difference to its parent.
 
-use hssh_topology::{Extension, Hypothesis, MapOlp, Observation, Position};
+use hssh_topology::{Derivation, MapOlp, Outcome, TopologicalMap};
 
+use crate::branch::Branch;
 use crate::experience::Experience;
 
-/// A hypothesis of a [`Tree`], numbered in order of creation.
+/// A hypothesis of a [`Tree`]. The number is a handle into this tree; what identifies a hypothesis anywhere is
+/// its [`Branch`].
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
-pub struct NodeId(pub u32);
+pub struct NodeId(u32);
 
 impl NodeId {
     /// The root: one place with the first star.
     pub const ROOT: NodeId = NodeId(0);
 
-    fn index(self) -> usize {
+    /// The node with that number in order of creation.
+    #[must_use]
+    pub const fn new(number: u32) -> Self {
+        NodeId(number)
+    }
+
+    /// The node as an index.
+    #[must_use]
+    pub fn index(self) -> usize {
         self.0 as usize
     }
-}
-
-/// What became of a node when the next observation was applied to it.
-#[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub enum Outcome {
-    /// It was not applied yet.
-    Open,
-    /// p-c: one child with the same map.
-    Predicted,
-    /// p-nc: the map is refuted.
-    Refuted,
-    /// e: one child per consistent extension; none if the axioms removed them all.
-    Expanded,
-}
-
-/// How a node came from its parent.
-#[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub enum Derived {
-    /// It is the root.
-    Root,
-    /// By p-c: it shares its parent's map.
-    Shared,
-    /// By e: its map extends its parent's map.
-    Extended(Extension),
 }
 
 /// 16 bytes: a node is its parent, its map, and the gateway by which the robot arrived.
@@ -52,14 +38,18 @@ struct Node {
 
 /// A map of the tree; the root's is number 0. Maps form a tree of their own.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
-struct MapNumber(u32);
+pub(crate) struct MapNumber(u32);
+
+impl MapNumber {
+    pub(crate) const ROOT: MapNumber = MapNumber(0);
+}
 
 /// 16 bytes: a map is its parent and the link that was added to it by the travel number `travel`.
 #[derive(Clone, Copy, Debug)]
-struct Growth {
-    parent: MapNumber,
-    travel: u32,
-    exit: MapOlp,
+pub(crate) struct Growth {
+    pub(crate) parent: MapNumber,
+    pub(crate) travel: u32,
+    pub(crate) exit: MapOlp,
     /// The gateway that closes a loop, or none for a new place.
     closure: MapOlp,
 }
@@ -68,8 +58,16 @@ struct Growth {
 const NO_GATEWAY: MapOlp = MapOlp(u32::MAX);
 
 impl Growth {
-    fn extension(self) -> Extension {
-        if self.closure == NO_GATEWAY { Extension::NewPlace } else { Extension::Closure(self.closure) }
+    pub(crate) fn derivation(self) -> Derivation {
+        if self.closure == NO_GATEWAY { Derivation::NewPlace } else { Derivation::Closure(self.closure) }
+    }
+
+    /// The gateway by which the robot came, in the parent's map.
+    pub(crate) fn arrival(self, parent: &TopologicalMap, experience: &Experience) -> MapOlp {
+        match self.derivation() {
+            Derivation::Closure(gateway) => gateway,
+            _ => MapOlp(parent.olp_count() + experience.observations[self.travel as usize].entry.0),
+        }
     }
 }
 
@@ -77,10 +75,11 @@ impl Growth {
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Child {
     pub(crate) parent: NodeId,
-    /// The gateway by which the robot arrives.
+    pub(crate) derivation: Derivation,
+    /// The gateway by which the robot leaves, in the parent's map.
+    pub(crate) exit: MapOlp,
+    /// The gateway by which it arrives.
     pub(crate) arrival: MapOlp,
-    /// How the map grows from which exit; nothing if the child shares its parent's map.
-    pub(crate) growth: Option<(MapOlp, Extension)>,
 }
 
 /// All hypotheses made so far.
@@ -101,7 +100,7 @@ impl Tree {
     /// The tree with nothing but its root.
     #[must_use]
     pub fn new() -> Self {
-        let (parent, map) = (NodeId::ROOT, MapNumber(0));
+        let (parent, map) = (NodeId::ROOT, MapNumber::ROOT);
         Tree {
             nodes: vec![Node { parent, map, arrival: NO_GATEWAY, depth: 0 }],
             outcomes: vec![Outcome::Open],
@@ -151,22 +150,19 @@ impl Tree {
         self.nodes[node.index()].depth as usize
     }
 
-    /// What became of a node.
+    /// What became of a node when the next observation was applied to it.
     #[must_use]
     pub fn outcome(&self, node: NodeId) -> Outcome {
         self.outcomes[node.index()]
     }
 
-    /// How a node came from its parent.
+    /// How a node came from its parent; `None` for the root.
     #[must_use]
-    pub fn derived(&self, node: NodeId) -> Derived {
-        let Some(parent) = self.parent(node) else { return Derived::Root };
+    pub fn derivation(&self, node: NodeId) -> Option<Derivation> {
+        let parent = self.parent(node)?;
         let map = self.nodes[node.index()].map;
-        if map == self.nodes[parent.index()].map {
-            Derived::Shared
-        } else {
-            Derived::Extended(self.maps[map.0 as usize].extension())
-        }
+        let is_shared = map == self.nodes[parent.index()].map;
+        Some(if is_shared { Derivation::Predicted } else { self.growth(map).derivation() })
     }
 
     /// The gateway by which the robot arrived, in the node's map; `None` at the root.
@@ -183,18 +179,34 @@ impl Tree {
         branch
     }
 
+    /// The choices that lead to a node: what it is, in any tree.
+    #[must_use]
+    pub fn choices(&self, node: NodeId) -> Branch {
+        self.branch(node).into_iter().filter_map(|node| self.derivation(node)).collect()
+    }
+
+    pub(crate) fn map(&self, node: NodeId) -> MapNumber {
+        self.nodes[node.index()].map
+    }
+
+    pub(crate) fn growth(&self, map: MapNumber) -> Growth {
+        self.maps[map.0 as usize]
+    }
+
     pub(crate) fn set_outcome(&mut self, node: NodeId, outcome: Outcome) {
         self.outcomes[node.index()] = outcome;
     }
 
     pub(crate) fn push(&mut self, child: Child) -> NodeId {
         let parent = self.nodes[child.parent.index()];
-        let map = child.growth.map_or(parent.map, |(exit, extension)| {
-            let closure = match extension {
-                Extension::NewPlace => NO_GATEWAY,
-                Extension::Closure(gateway) => gateway,
-            };
-            self.maps.push(Growth { parent: parent.map, travel: parent.depth, exit, closure });
+        let closure = match child.derivation {
+            Derivation::Predicted => None,
+            Derivation::NewPlace => Some(NO_GATEWAY),
+            Derivation::Closure(gateway) => Some(gateway),
+        };
+        let map = closure.map_or(parent.map, |closure| {
+            let (travel, exit) = (parent.depth, child.exit);
+            self.maps.push(Growth { parent: parent.map, travel, exit, closure });
             MapNumber(self.maps.len() as u32 - 1)
         });
         self.nodes.push(Node { parent: child.parent, map, arrival: child.arrival, depth: parent.depth + 1 });
@@ -207,78 +219,5 @@ impl Tree {
         self.nodes.truncate(nodes);
         self.outcomes.truncate(nodes);
         self.maps.truncate(maps);
-    }
-}
-
-/// A hypothesis that can be moved from node to node of a tree: it goes up and down the tree of maps
-/// by retracting and applying differences.
-#[derive(Clone, Debug)]
-pub struct Cursor {
-    hypothesis: Hypothesis,
-    at: MapNumber,
-    way_down: Vec<MapNumber>,
-}
-
-impl Cursor {
-    /// A cursor at the root.
-    #[must_use]
-    pub fn new(experience: &Experience) -> Self {
-        let hypothesis = Hypothesis::root(&experience.catalog, experience.start);
-        Cursor { hypothesis, at: MapNumber(0), way_down: Vec::new() }
-    }
-
-    /// Moves to a node; the hypothesis there. Whatever was done to the hypothesis after the last
-    /// move must have been taken back.
-    pub fn go_to(&mut self, node: NodeId, tree: &Tree, experience: &Experience) -> &mut Hypothesis {
-        let Node { map, arrival, depth, .. } = tree.nodes[node.index()];
-        self.go_to_map(map, tree, experience);
-        match experience.observations.get((depth as usize).wrapping_sub(1)) {
-            Some(observation) => self.hypothesis.arrive(arrival, observation.entry),
-            None => {
-                self.hypothesis.position = Hypothesis::root(&experience.catalog, experience.start).position
-            }
-        }
-        &mut self.hypothesis
-    }
-
-    /// Moves to a node; where the robot was there, after each travel that it explains, the start first.
-    #[must_use]
-    pub fn visits(&mut self, node: NodeId, tree: &Tree, experience: &Experience) -> Vec<Position> {
-        let hypothesis = self.go_to(node, tree, experience);
-        let start = Hypothesis::root(&experience.catalog, experience.start).position;
-        let branch = tree.branch(node);
-        let arrivals = branch.iter().filter_map(|&node| tree.arrival(node));
-        let came = arrivals.zip(&experience.observations);
-        let visits = came.map(|(arrival, observation)| hypothesis.position_at(arrival, observation.entry));
-        std::iter::once(start).chain(visits).collect()
-    }
-
-    /// The hypothesis at the node it was moved to last.
-    #[must_use]
-    pub fn into_hypothesis(self) -> Hypothesis {
-        self.hypothesis
-    }
-
-    /// A parent has a lower number than its children, so that the deeper of two maps in the sense
-    /// of numbers is never an ancestor of the other.
-    fn go_to_map(&mut self, target: MapNumber, tree: &Tree, experience: &Experience) {
-        let mut common = target;
-        self.way_down.clear();
-        while self.at != common {
-            if common > self.at {
-                self.way_down.push(common);
-                common = tree.maps[common.0 as usize].parent;
-            } else {
-                let growth = tree.maps[self.at.0 as usize];
-                self.hypothesis.retract(growth.extension());
-                self.at = growth.parent;
-            }
-        }
-        while let Some(map) = self.way_down.pop() {
-            let growth = tree.maps[map.0 as usize];
-            let observation: Observation = experience.observations[growth.travel as usize];
-            self.hypothesis.extend(growth.exit, growth.extension(), observation, &experience.catalog);
-        }
-        self.at = target;
     }
 }

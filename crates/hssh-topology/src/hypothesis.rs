@@ -1,5 +1,8 @@
 //! Hypotheses ⟨map, place, φ⟩ and the recursive step that extends them (section 2.3.1).
 
+use std::fmt;
+use std::str::FromStr;
+
 use serde::{Deserialize, Serialize};
 
 use crate::axioms::{Axioms, Removals};
@@ -38,24 +41,96 @@ pub struct Hypothesis {
     pub position: Position,
 }
 
-/// How an observation follows from a hypothesis.
-#[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
+/// One way in which a travel follows from a hypothesis: what a branch of the tree chooses there. A travel that
+/// follows in no way refutes the hypothesis (p-nc).
+///
+/// The order is that of a step's successors: a new place before all closures, these by their gateways.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
 pub enum Derivation {
-    /// p-c: the map has the link, and the star is as predicted. The robot arrives by this gateway.
-    PredictedConsistent(MapOlp),
-    /// p-nc: the map has the link, but the star it leads to looks otherwise.
-    PredictedInconsistent,
-    /// e: the exit, this gateway, is pending; every successor is an [`Extension`] of the map.
-    Expand(MapOlp),
+    /// p-c: the map has the link, and the star is as predicted.
+    Predicted,
+    /// e: the robot left by a pending gateway and came to a place it had not been at.
+    NewPlace,
+    /// e: the robot left by a pending gateway and is back at a place of the map, by this pending gateway.
+    Closure(MapOlp),
 }
 
-/// How a map grows when the robot leaves it by a pending gateway.
+/// `p`, `n`, and `c` with the number of the gateway.
+impl fmt::Display for Derivation {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Derivation::Predicted => f.pad("p"),
+            Derivation::NewPlace => f.pad("n"),
+            Derivation::Closure(gateway) => write!(f, "c{}", gateway.0),
+        }
+    }
+}
+
+/// A text that names no derivation.
+#[derive(Clone, PartialEq, Eq, Debug, thiserror::Error)]
+#[error("`{0}` is no derivation: write `p` (predicted), `n` (new place), or `c` and the number of a gateway")]
+pub struct DerivationError(String);
+
+impl FromStr for Derivation {
+    type Err = DerivationError;
+
+    fn from_str(text: &str) -> Result<Self, DerivationError> {
+        match (text, text.strip_prefix('c').map(str::parse)) {
+            ("p", _) => Ok(Derivation::Predicted),
+            ("n", _) => Ok(Derivation::NewPlace),
+            (_, Some(Ok(gateway))) => Ok(Derivation::Closure(MapOlp(gateway))),
+            _ => Err(DerivationError(text.chars().take(20).collect())),
+        }
+    }
+}
+
+/// What a step made of a hypothesis.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug, Serialize, Deserialize)]
-pub enum Extension {
-    /// The robot came to a place it had not been at.
-    NewPlace,
-    /// The robot is back at a place of the map, by this pending gateway.
-    Closure(MapOlp),
+#[serde(rename_all = "snake_case")]
+pub enum Outcome {
+    /// The step was not applied yet.
+    Open,
+    /// p-c: one successor with the same map.
+    Predicted,
+    /// p-nc: the map has the link, but the star it leads to looks otherwise. No successor.
+    Refuted,
+    /// e: a successor for each consistent extension of the map; none if the axioms removed them all.
+    Expanded,
+}
+
+/// By which rules hypotheses follow from one another.
+#[derive(Clone, Copy, Debug)]
+pub struct Rules<'a> {
+    /// Which stars look alike.
+    pub catalog: &'a StarCatalog,
+    /// Which maps are possible.
+    pub axioms: &'a Axioms,
+}
+
+/// The result of a step. One value serves many steps, so that none has to allocate.
+#[derive(Clone, Debug)]
+pub struct Step {
+    /// What the last step made of its hypothesis.
+    pub outcome: Outcome,
+    /// In which ways the travel follows from it, in order.
+    pub derivations: Vec<Derivation>,
+    /// Successors that the axioms removed, in all steps together.
+    pub removals: Removals,
+}
+
+impl Default for Step {
+    fn default() -> Self {
+        Step { outcome: Outcome::Open, derivations: Vec::new(), removals: Removals::default() }
+    }
+}
+
+/// What [`Hypothesis::follow`] changed, for [`Hypothesis::take_back`].
+#[must_use = "a hypothesis that follows a travel has to be taken back before it follows another way"]
+#[derive(Debug)]
+pub struct Footprint {
+    before: Position,
+    derivation: Derivation,
 }
 
 impl Hypothesis {
@@ -67,50 +142,66 @@ impl Hypothesis {
         Hypothesis { map, position: Position { place, phi: Isomorphism::identity(catalog.star(star)) } }
     }
 
-    /// The recursive step: how `observation` follows from this hypothesis. If the exit is pending,
-    /// `extensions` becomes the list of all consistent extensions that the axioms admit, the new
-    /// place first and then closures in the order of their gateways; `removals` counts the rest.
-    pub fn step(
-        &mut self,
-        observation: Observation,
-        catalog: &StarCatalog,
-        axioms: &Axioms,
-        extensions: &mut Vec<Extension>,
-        removals: &mut Removals,
-    ) -> Derivation {
-        extensions.clear();
-        let Observation { exit, entry, star } = observation;
-        let exit = self.map.olp(self.position.place, self.position.phi.apply(exit)); // φ(S_i :: OLP_out)
+    /// The recursive step: in which ways `observation` follows from this hypothesis, and how many the axioms
+    /// remove. The hypothesis is the same afterwards.
+    pub fn step(&mut self, observation: Observation, rules: Rules<'_>, step: &mut Step) {
+        let Rules { catalog, axioms } = rules;
+        let Step { outcome, derivations, removals } = step;
+        derivations.clear();
+        let Observation { entry, star, .. } = observation;
+        let exit = self.exit(observation);
 
         if let Some(arrival) = self.map.linked(exit) {
-            return if self.looks_like(star, entry, arrival, catalog) {
-                Derivation::PredictedConsistent(arrival)
-            } else {
-                Derivation::PredictedInconsistent
-            };
+            *outcome = Outcome::Refuted;
+            if self.looks_like(star, entry, arrival, catalog) {
+                *outcome = Outcome::Predicted;
+                derivations.push(Derivation::Predicted);
+            }
+            return;
         }
 
+        *outcome = Outcome::Expanded;
         match axioms.violated_by_new_place(&self.map) {
             Some(axiom) => removals.record(axiom),
-            None => extensions.push(Extension::NewPlace),
+            None => derivations.push(Derivation::NewPlace),
         }
         for other in self.map.pending_gateways() {
             if other != exit && self.looks_like(star, entry, other, catalog) {
                 match axioms.violated_by_closure(&self.map, exit, other) {
                     Some(axiom) => removals.record(axiom),
-                    None => extensions.push(Extension::Closure(other)),
+                    None => derivations.push(Derivation::Closure(other)),
                 }
             }
         }
         if axioms.consistent_boundaries {
-            extensions.retain(|&extension| {
-                self.extend(exit, extension, observation, catalog);
+            derivations.retain(|&derivation| {
+                let footprint = self.follow(observation, derivation, catalog);
                 let violated = axioms.violated_by_boundaries(&self.map);
-                self.retract(extension);
+                self.take_back(footprint);
                 violated.inspect(|&axiom| removals.record(axiom)).is_none()
             });
         }
-        Derivation::Expand(exit)
+    }
+
+    /// The oriented local path that the robot leaves by: φ(S_i :: OLP_out).
+    #[must_use]
+    pub fn exit(&self, observation: Observation) -> MapOlp {
+        self.map.olp(self.position.place, self.position.phi.apply(observation.exit))
+    }
+
+    /// The gateway by which the robot arrives if the travel follows in that way.
+    ///
+    /// # Panics
+    /// If the way is [`Derivation::Predicted`] and the map does not have the link.
+    #[must_use]
+    pub fn arrival(&self, observation: Observation, derivation: Derivation) -> MapOlp {
+        match derivation {
+            Derivation::Closure(gateway) => gateway,
+            Derivation::NewPlace => MapOlp(self.map.olp_count() + observation.entry.0),
+            Derivation::Predicted => {
+                self.map.linked(self.exit(observation)).expect("a travel that is predicted follows a link")
+            }
+        }
     }
 
     /// Whether the observed star, entered by `entry`, matches the star of the place that `arrival`
@@ -120,38 +211,51 @@ impl Hypothesis {
         catalog.matches(star, entry, self.map.star(place), self.map.local(arrival))
     }
 
-    /// Extends the map from the pending gateway `exit`; the gateway that the robot arrives by. The
-    /// position stays as it is.
-    pub fn extend(
+    /// Goes where the travel leads if it follows in that way: the map grows, the robot arrives.
+    pub fn follow(
+        &mut self,
+        observation: Observation,
+        derivation: Derivation,
+        catalog: &StarCatalog,
+    ) -> Footprint {
+        let before = self.position;
+        let arrival = self.arrival(observation, derivation);
+        if derivation != Derivation::Predicted {
+            self.grow(self.exit(observation), derivation, observation.star, arrival, catalog);
+        }
+        self.position = self.position_at(arrival, observation.entry);
+        Footprint { before, derivation }
+    }
+
+    /// Takes back the last [`follow`](Self::follow) that was not taken back yet.
+    pub fn take_back(&mut self, footprint: Footprint) {
+        self.shrink(footprint.derivation);
+        self.position = footprint.before;
+    }
+
+    /// The map grows as the derivation says. The position stays as it is.
+    pub fn grow(
         &mut self,
         exit: MapOlp,
-        extension: Extension,
-        observation: Observation,
+        derivation: Derivation,
+        star: StarId,
+        arrival: MapOlp,
         catalog: &StarCatalog,
-    ) -> MapOlp {
-        let arrival = match extension {
-            Extension::Closure(gateway) => gateway,
-            Extension::NewPlace => {
-                let place = self.map.add_place(observation.star, catalog.star(observation.star));
-                self.map.olp(place, observation.entry)
-            }
-        };
-        self.map.link(exit, arrival);
-        arrival
-    }
-
-    /// Takes back the last [`extend`](Self::extend).
-    pub fn retract(&mut self, extension: Extension) {
-        self.map.retract();
-        if extension == Extension::NewPlace {
-            self.map.retract();
+    ) {
+        if derivation == Derivation::NewPlace {
+            self.map.add_place(star, catalog.star(star));
         }
+        self.map.link(exit, arrival);
     }
 
-    /// Puts the robot at the place that it reaches by the gateway `arrival`, having seen there a star
-    /// that it entered by `entry`.
-    pub fn arrive(&mut self, arrival: MapOlp, entry: Olp) {
-        self.position = self.position_at(arrival, entry);
+    /// Takes back the last [`grow`](Self::grow) of that kind.
+    pub fn shrink(&mut self, derivation: Derivation) {
+        let changes = match derivation {
+            Derivation::Predicted => 0,
+            Derivation::Closure(_) => 1,
+            Derivation::NewPlace => 2,
+        };
+        (0..changes).for_each(|_| self.map.retract());
     }
 
     /// Where the robot is if it reached a place by the gateway `arrival`, having seen there a star that it

@@ -18,7 +18,9 @@ mod star;
 pub use axioms::{Axiom, Axioms, Removals};
 pub use catalog::{StarCatalog, StarId};
 pub use embedding::{Dart, EmbeddedGraph, EmbeddingError, FaceLabel, Faces, Link, Vertex};
-pub use hypothesis::{Derivation, Extension, Hypothesis, Observation, Position};
+pub use hypothesis::{
+    Derivation, DerivationError, Footprint, Hypothesis, Observation, Outcome, Position, Rules, Step,
+};
 pub use isomorphism::Isomorphism;
 pub use map::{
     BoundaryRelation, Course, Direction, MapOlp, PathId, PathSides, PlaceId, Region, TopologicalMap,
@@ -28,5 +30,5 @@ pub use replay::{
     Contradiction, Discovery, End, Malformed, MapSketch, Replay, ReplayedTravel, TracedPath, Violation,
     replay, violations,
 };
-pub use simplicity::{Simplicity, SimplicityError};
+pub use simplicity::{Simplicity, SimplicityError, SimplicityFloor};
 pub use star::{Olp, OlpName, Sign, Star, StarEnd, StarError, Travel};

@@ -38,13 +38,20 @@ impl Measure {
     /// pending now, and the ends of paths are the closed ends and the pending gateways, two to a path.
     #[must_use]
     pub fn bound(map: &TopologicalMap, travels: u32) -> Self {
-        let ends = map.closed_end_count() + map.pending_count().saturating_sub(2 * travels);
         Measure {
             f1: map.permanently_undetermined_boundary_count(),
-            f2: ends.div_ceil(2),
+            f2: Measure::least_paths(map.closed_end_count(), map.pending_count(), travels),
             f3: map.place_count(),
             genus: map.graph().genus(),
         }
+    }
+}
+
+impl Measure {
+    /// How many paths there are at least after so many travels more, with so many closed ends and pending gateways now.
+    #[must_use]
+    pub fn least_paths(closed_ends: u32, pending: u32, travels: u32) -> u32 {
+        (closed_ends + pending.saturating_sub(travels.saturating_mul(2))).div_ceil(2)
     }
 }
 

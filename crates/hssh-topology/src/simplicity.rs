@@ -54,17 +54,44 @@ impl Simplicity {
 
     /// A number that F does not fall below in any map grown from this one by at most `travels` more
     /// travels. Each place more adds c3 to it.
+    #[must_use]
+    pub fn bound(self, map: &TopologicalMap, travels: u32) -> f64 {
+        self.floor(map).least(travels)
+    }
+
+    /// What F does not fall below in any map grown from this one.
     ///
     /// A path with two places keeps them, and every path has two ends: of those on such paths, the closed
     /// ones stay, and a travel links at most two of the pending ones.
     #[must_use]
-    pub fn bound(self, map: &TopologicalMap, travels: u32) -> f64 {
+    pub fn floor(self, map: &TopologicalMap) -> SimplicityFloor {
         let long = || map.paths().filter(|&path| map.places_on_path(path) >= 2);
         let pending: u32 = long().map(|path| map.pending_ends(path)).sum();
         let ends: u32 = long().map(|path| if map.is_circular(path) { 0 } else { 2 }).sum();
-        let f2 = (ends - pending + pending.saturating_sub(2 * travels)).div_ceil(2);
         let f1 = if self.c1 > 0.0 { map.permanently_undetermined_boundary_count() } else { 0 };
-        self.c1 * f1 as f64 + self.c2 * f64::from(f2) + self.c3 * f64::from(map.place_count())
+        let fixed = self.c1 * f1 as f64 + self.c3 * f64::from(map.place_count());
+        SimplicityFloor { c2: self.c2, fixed, pending, closed: ends - pending }
+    }
+}
+
+/// What F does not fall below, by how many travels are to come.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub struct SimplicityFloor {
+    c2: f64,
+    /// What boundary relations and places weigh.
+    fixed: f64,
+    /// The pending ends of paths with at least two places.
+    pending: u32,
+    /// Their closed ends.
+    closed: u32,
+}
+
+impl SimplicityFloor {
+    /// For at most so many travels more.
+    #[must_use]
+    pub fn least(self, travels: u32) -> f64 {
+        let ends = self.closed + self.pending.saturating_sub(travels.saturating_mul(2));
+        self.fixed + self.c2 * f64::from(ends.div_ceil(2))
     }
 }
 

@@ -22,16 +22,37 @@ impl Appearance {
     /// Ratios that are not finite count as 0.
     #[must_use]
     pub fn new(degrees: &[u32], mut ratio: impl FnMut(usize, usize, u32) -> f64) -> Self {
-        let finite = |ratio: f64| if ratio.is_finite() { ratio } else { 0.0 };
-        let ratios: Vec<Vec<Vec<f64>>> = (0..degrees.len())
-            .map(|later| {
-                let with =
-                    |earlier| (0..degrees[later]).map(|turn| finite(ratio(later, earlier, turn))).collect();
-                (0..later).map(with).collect()
-            })
-            .collect();
-        let greatest = ratios.iter().map(|row| row.iter().flatten().copied().fold(0.0, f64::max)).collect();
-        Appearance { ratios, greatest }
+        let mut appearance = Appearance::default();
+        for (later, &degree) in degrees.iter().enumerate() {
+            let row = (0..later).map(|earlier| (0..degree).map(|turn| ratio(later, earlier, turn)).collect());
+            appearance.push(row.collect());
+        }
+        appearance
+    }
+
+    /// Compares one visit more with all before: by earlier visit and rotation, as far as anything is known.
+    ///
+    /// Ratios that are not finite count as 0.
+    pub fn push(&mut self, mut row: Vec<Vec<f64>>) {
+        row.iter_mut().flatten().filter(|ratio| !ratio.is_finite()).for_each(|ratio| *ratio = 0.0);
+        self.greatest.push(row.iter().flatten().copied().fold(0.0, f64::max));
+        self.ratios.push(row);
+    }
+
+    /// How many visits were compared.
+    #[must_use]
+    pub fn visits(&self) -> usize {
+        self.ratios.len()
+    }
+
+    /// All ratios but 0: later visit, earlier visit, rotation, ratio.
+    pub(crate) fn ratios(&self) -> impl Iterator<Item = (usize, usize, usize, f64)> + '_ {
+        let rows = self.ratios.iter().enumerate();
+        let pairs = rows.flat_map(|(later, row)| row.iter().enumerate().map(move |pair| (later, pair)));
+        let all = pairs.flat_map(|(later, (earlier, turns))| {
+            turns.iter().enumerate().map(move |(turn, &ratio)| (later, earlier, turn, ratio))
+        });
+        all.filter(|(.., ratio)| *ratio != 0.0)
     }
 
     /// What it costs to take a visit for a new place: the gain that is given away. Never negative.

@@ -35,6 +35,8 @@ pub enum PlacePrior {
     Uniform(UniformPrior),
     /// As far and as straight as corridors are.
     Corridor(Corridor),
+    /// As far as the corridors that were travelled so far: [`Corridor::typical`], estimated anew with every travel.
+    Typical,
 }
 
 /// A prior on corridors: their length is log-normal; they lead where the gateways at both ends point, with some
@@ -61,7 +63,11 @@ impl Corridor {
     /// Each corridor counts as often as it was travelled. That is the same for all maps.
     #[must_use]
     pub fn typical_of(exploration: &Exploration) -> Option<Self> {
-        let odometry = exploration.travels().iter().filter_map(|travel| travel.odometry.as_ref());
+        Corridor::typical(exploration.travels().iter().filter_map(|travel| travel.odometry.as_ref()))
+    }
+
+    /// The same of any measured travels.
+    pub(crate) fn typical<'a>(odometry: impl Iterator<Item = &'a Odometry>) -> Option<Self> {
         let mut logs: Vec<f64> = odometry.map(|measured| distance(measured).ln()).collect();
         logs.sort_by(f64::total_cmp);
         let median = *logs.get(logs.len() / 2)?;
@@ -72,7 +78,7 @@ impl Corridor {
 
     /// The log-density of (x, y, θ) for a corridor that leaves by a gateway with the bearing `exit` and
     /// arrives by one with the bearing `entry`; each in the frame of its place, where measured.
-    fn log_density(self, measured: &Odometry, exit: Option<f64>, entry: Option<f64>) -> f64 {
+    pub(crate) fn log_density(self, measured: &Odometry, exit: Option<f64>, entry: Option<f64>) -> f64 {
         let distance = distance(measured);
         let way = measured.y.atan2(measured.x);
         let way_back = wrap_angle(way + std::f64::consts::PI - measured.theta); // in the arrival frame
@@ -95,16 +101,6 @@ impl Corridor {
 fn distance(measured: &Odometry) -> f64 {
     let [[x, ..], [_, y, _], _] = measured.covariance;
     measured.x.hypot(measured.y).max(((x + y) / 2.0).sqrt())
-}
-
-impl PlacePrior {
-    /// The log-density of the pose of a new place, in the frame of the place that the travel began at.
-    pub(crate) fn log_density(self, measured: &Odometry, exit: Option<f64>, entry: Option<f64>) -> f64 {
-        match self {
-            PlacePrior::Uniform(prior) => prior.log_density(),
-            PlacePrior::Corridor(corridor) => corridor.log_density(measured, exit, entry),
-        }
-    }
 }
 
 /// How probable a map is before anything is measured.
@@ -147,6 +143,10 @@ impl PosteriorModel {
         let metrical = Metrical::Evidence(PlacePrior::Corridor(corridor));
         Some(PosteriorModel { metrical, prior: MapPrior::Flat })
     }
+
+    /// The same on the way, where the exploration's end is not known: corridors as long as those travelled so far.
+    pub const ONLINE: PosteriorModel =
+        PosteriorModel { metrical: Metrical::Evidence(PlacePrior::Typical), prior: MapPrior::Flat };
 
     /// Checks that all weights and widths make sense.
     ///

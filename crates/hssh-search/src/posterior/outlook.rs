@@ -6,7 +6,7 @@
 //! b, or the new places are paid for.
 
 use hssh_metrics::{Pose, UncertainPose};
-use hssh_topology::{Isomorphism, StarId};
+use hssh_topology::{Olp, StarCatalog, StarId};
 
 use crate::experience::Experience;
 use crate::measured::Measured;
@@ -28,29 +28,80 @@ const FIRST_THRESHOLD: f64 = 0.5;
 const THRESHOLD_FACTOR: f64 = 1.25;
 const THRESHOLDS: usize = 40;
 
-/// How many new places the travels that are left need, by travels explained and by χ²/2.
+/// How many new places the travels that are left need, by travels explained and by χ²/2. It grows with the experience.
 #[derive(Clone, Debug)]
 pub(crate) struct Outlook {
-    /// Ascending.
+    /// Ascending; the last one is no limit at all.
     thresholds: Vec<f64>,
-    /// By threshold and number of travels explained; the last row holds for any χ².
-    new_places: Vec<Vec<u32>>,
+    /// By threshold and number of travels explained: the visits that are left and need a new place, greedily in order.
+    new_places: Vec<Vec<Vec<u32>>>,
+    /// By visit: the way from there to the last visit by odometry alone, as long as it tells anything.
+    ways: Vec<Option<UncertainPose>>,
 }
 
 impl Outlook {
-    /// Compares all pairs of visits; `None` as measurements compares their stars only.
-    pub(crate) fn of(experience: &Experience, measured: Option<&Measured>) -> Self {
-        let price = price_of_sameness(experience, measured);
-        let thresholds: Vec<f64> = match measured {
-            Some(_) => {
-                let next = |&last: &f64| Some(last * THRESHOLD_FACTOR);
-                std::iter::successors(Some(FIRST_THRESHOLD), next).take(THRESHOLDS).collect()
+    /// Before the first travel.
+    pub(crate) fn new(is_measured: bool) -> Self {
+        let next = |&last: &f64| Some(last * THRESHOLD_FACTOR);
+        let steps = std::iter::successors(Some(FIRST_THRESHOLD), next);
+        let steps = steps.take(if is_measured { THRESHOLDS } else { 0 });
+        let thresholds: Vec<f64> = steps.chain([f64::MAX]).collect();
+        let new_places = vec![vec![Vec::new()]; thresholds.len()];
+        Outlook { thresholds, new_places, ways: vec![None] }
+    }
+
+    /// Takes notice of the visits that are new.
+    pub(crate) fn observe(&mut self, experience: &Experience, measured: Option<&Measured>) {
+        for visit in self.ways.len()..=experience.observations.len() {
+            let prices = self.prices_of_sameness(visit, experience, measured);
+            for (&threshold, rows) in self.thresholds.iter().zip(&mut self.new_places) {
+                let is_near = |earlier: usize| prices[earlier] <= threshold;
+                // Where less is explained than the first near visit, only visits at new places can be near.
+                let first_near = (0..visit).find(|&earlier| is_near(earlier)).unwrap_or(visit);
+                for new_places in &mut rows[..first_near] {
+                    if !new_places.iter().any(|&earlier| is_near(earlier as usize)) {
+                        new_places.push(visit as u32);
+                    }
+                }
+                rows.push(Vec::new());
             }
-            None => Vec::new(),
+        }
+    }
+
+    /// By earlier visit: by how much χ²/2 rises at least if the visit is at the same place.
+    fn prices_of_sameness(
+        &mut self,
+        visit: usize,
+        experience: &Experience,
+        measured: Option<&Measured>,
+    ) -> Vec<f64> {
+        let travel = measured.map(|measured| &measured.travels[visit - 1]);
+        if let Some(travel) = travel {
+            let step = UncertainPose { mean: travel.pose, covariance: travel.covariance };
+            for way in &mut self.ways {
+                // Where double precision does not tell the two visits apart any more, nothing is claimed; nor where the
+                // heading is lost, which no travel brings back.
+                let longer = way.as_ref().and_then(|way| way.compose(&step).ok());
+                *way = longer.filter(|way| trust(way.covariance.matrix()[(2, 2)]) > 0.0);
+            }
+            if let Some(last) = self.ways.last_mut() {
+                *last = Some(step).filter(|way| trust(way.covariance.matrix()[(2, 2)]) > 0.0);
+            }
+        }
+        let price = |(earlier, way): (usize, &Option<UncertainPose>)| {
+            let (seen, first) = (experience.star_of(visit), experience.star_of(earlier));
+            let prices = rotations(&experience.catalog, seen, first).map(|rotation| match (measured, way) {
+                (Some(measured), Some(way)) => {
+                    let turn = measured.frames.turn_between(visit, earlier, rotation);
+                    trust(way.covariance.matrix()[(2, 2)]) * half_chi2(way, turn)
+                }
+                _ => 0.0,
+            });
+            prices.fold(f64::INFINITY, f64::min)
         };
-        let rows = thresholds.iter().copied().chain([f64::MAX]);
-        let new_places = rows.map(|threshold| apart(&price, threshold)).collect();
-        Outlook { thresholds, new_places }
+        let prices = self.ways.iter().enumerate().map(price).collect();
+        self.ways.push(None);
+        prices
     }
 
     /// The least of χ²/2 plus what new places cost, over all maps that may come of one that explains that
@@ -58,10 +109,9 @@ impl Outlook {
     pub(crate) fn least(&self, explained: usize, bend: f64, cost: impl Fn(u32) -> f64) -> f64 {
         let mut least = f64::INFINITY;
         let mut from = 0.0_f64; // χ²/2 is between `from` and the next threshold
-        for (row, new_places) in self.new_places.iter().enumerate() {
-            let to = self.thresholds.get(row).copied().unwrap_or(f64::INFINITY);
+        for (&to, new_places) in self.thresholds.iter().zip(&self.new_places) {
             if to >= bend {
-                least = least.min(from.max(bend) + cost(new_places[explained]));
+                least = least.min(from.max(bend) + cost(new_places[explained].len() as u32));
                 if from.max(bend) + cost(0) >= least {
                     break;
                 }
@@ -72,40 +122,10 @@ impl Outlook {
     }
 }
 
-/// By how much χ²/2 rises at least if two visits are at the same place, for all pairs (later, earlier).
-fn price_of_sameness(experience: &Experience, measured: Option<&Measured>) -> Vec<Vec<f64>> {
-    let stars: Vec<StarId> =
-        std::iter::once(experience.start).chain(experience.observations.iter().map(|o| o.star)).collect();
-    let mut price: Vec<Vec<f64>> = (0..stars.len()).map(|later| vec![0.0; later]).collect();
-    for earlier in 0..stars.len() {
-        // The later visit in the frame of the earlier one, by odometry along the way between them.
-        let mut way: Option<UncertainPose> = None;
-        for later in earlier + 1..stars.len() {
-            if let Some(measured) = measured {
-                let travel = &measured.travels[later - 1];
-                let step = UncertainPose { mean: travel.pose, covariance: travel.covariance };
-                way = match &way {
-                    None => Some(step),
-                    // Where double precision does not tell the two apart any more, nothing is claimed.
-                    Some(way) => way.compose(&step).ok(),
-                };
-                if way.is_none() {
-                    break;
-                }
-            }
-            let (first, seen) =
-                (experience.catalog.star(stars[earlier]), experience.catalog.star(stars[later]));
-            let prices = Isomorphism::all(seen, first).map(|phi| match (measured, &way) {
-                (Some(measured), Some(way)) => {
-                    let turn = measured.frames.turn_between(later, earlier, phi.rotation());
-                    trust(way.covariance.matrix()[(2, 2)]) * half_chi2(way, turn)
-                }
-                _ => 0.0,
-            });
-            price[later][earlier] = prices.fold(f64::INFINITY, f64::min);
-        }
-    }
-    price
+/// The rotations of all isomorphisms between two stars.
+fn rotations(catalog: &StarCatalog, seen: StarId, first: StarId) -> impl Iterator<Item = u32> + '_ {
+    let degree = catalog.star(first).degree();
+    (0..degree).filter(move |&rotation| catalog.matches(seen, Olp(0), first, Olp(rotation)))
 }
 
 /// χ²/2 of a way that ends where it began, in a frame turned by `turn`.
@@ -113,35 +133,4 @@ fn half_chi2(way: &UncertainPose, turn: f64) -> f64 {
     let off = way.mean.compose(Pose::new(0.0, 0.0, -turn));
     let off = nalgebra::vector![off.x, off.y, off.theta];
     0.5 * off.dot(&(way.covariance.information().matrix() * off))
-}
-
-/// By number of travels explained: how many of the visits that are left are too far from one another and
-/// from all visits before, so that each needs a new place of its own. Taken greedily in order.
-fn apart(price: &[Vec<f64>], threshold: f64) -> Vec<u32> {
-    let visits = price.len();
-    let words = visits.div_ceil(64);
-    let near: Vec<Vec<u64>> = price
-        .iter()
-        .map(|row| {
-            let mut bits = vec![0; words];
-            for (earlier, _) in row.iter().enumerate().filter(|&(_, &price)| price <= threshold) {
-                bits[earlier / 64] |= 1 << (earlier % 64);
-            }
-            bits
-        })
-        .collect();
-    (0..visits)
-        .map(|explained| {
-            let mut known = vec![0_u64; words];
-            (0..=explained).for_each(|visit| known[visit / 64] |= 1 << (visit % 64));
-            let mut new_places = 0;
-            for visit in explained + 1..visits {
-                if near[visit].iter().zip(&known).all(|(near, known)| near & known == 0) {
-                    known[visit / 64] |= 1 << (visit % 64);
-                    new_places += 1;
-                }
-            }
-            new_places
-        })
-        .collect()
 }

@@ -1,0 +1,234 @@
+//! How a mapper is to search.
+
+use std::sync::Arc;
+
+use hssh_causal::Exploration;
+use hssh_metrics::SolveError;
+use hssh_topology::{Axioms, Preference, Star};
+
+use crate::context::Context;
+use crate::count::count;
+use crate::crew::{Crew, ThreadsError};
+use crate::experience::Experience;
+use crate::limits::{Limits, Monitor, Watch};
+use crate::mapper::Mapper;
+use crate::measured::MeasurementError;
+use crate::order::{Goal, Order, Proving};
+use crate::posterior::{Appearance, ModelError, PosteriorModel};
+use crate::report::Report;
+
+/// What makes one map better than another.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub enum Objective {
+    /// The order of preference (section 2.3.2).
+    Preference(Preference),
+    /// Posterior probability (chapter 4). Every travel has to be measured, unless the model ignores measurements.
+    Posterior(PosteriorModel),
+}
+
+impl Default for Objective {
+    fn default() -> Self {
+        Objective::Preference(Preference::default())
+    }
+}
+
+/// Why a search cannot begin, or has no answer.
+#[derive(Debug, thiserror::Error)]
+pub enum MapperError {
+    /// The model is none.
+    #[error("the model makes no sense: {0}")]
+    Model(#[from] ModelError),
+    /// A travel is not measured, or badly.
+    #[error(transparent)]
+    Measurement(#[from] MeasurementError),
+    /// There is no map, and some layout cannot be found.
+    #[error(
+        "no layout of the first {travels} travels can be computed; is an odometry among them out of all proportion? {problem}"
+    )]
+    Unsolvable {
+        /// How many travels were to be laid out.
+        travels: usize,
+        /// Why they cannot be.
+        problem: SolveError,
+    },
+    /// No threads.
+    #[error(transparent)]
+    Threads(#[from] ThreadsError),
+}
+
+/// How a [`Mapper`] is to search. The default is breadth-first with the thesis's axioms and
+/// preference, on one thread, without limits.
+#[derive(Clone, Debug)]
+pub struct MapperBuilder {
+    pub(crate) axioms: Axioms,
+    pub(crate) objective: Objective,
+    pub(crate) order: Order,
+    pub(crate) goal: Goal,
+    pub(crate) proving: Proving,
+    pub(crate) appearance: Appearance,
+    pub(crate) limits: Limits,
+    pub(crate) threads: usize,
+    pub(crate) monitor: Arc<Monitor>,
+}
+
+impl Default for MapperBuilder {
+    fn default() -> Self {
+        MapperBuilder {
+            axioms: Axioms::default(),
+            objective: Objective::default(),
+            order: Order::default(),
+            goal: Goal::default(),
+            proving: Proving::default(),
+            appearance: Appearance::default(),
+            limits: Limits::default(),
+            threads: 1,
+            monitor: Arc::default(),
+        }
+    }
+}
+
+impl MapperBuilder {
+    /// The axioms that maps have to satisfy.
+    #[must_use]
+    pub fn axioms(self, axioms: Axioms) -> Self {
+        MapperBuilder { axioms, ..self }
+    }
+
+    /// What makes a map better than another.
+    #[must_use]
+    pub fn objective(self, objective: Objective) -> Self {
+        MapperBuilder { objective, ..self }
+    }
+
+    /// Looks for the maps that are preferred.
+    #[must_use]
+    pub fn preference(self, preference: Preference) -> Self {
+        self.objective(Objective::Preference(preference))
+    }
+
+    /// Looks for the most probable maps.
+    #[must_use]
+    pub fn posterior(self, model: PosteriorModel) -> Self {
+        self.objective(Objective::Posterior(model))
+    }
+
+    /// In which order to look.
+    #[must_use]
+    pub fn order(self, order: Order) -> Self {
+        MapperBuilder { order, ..self }
+    }
+
+    /// Which maps to accept.
+    #[must_use]
+    pub fn goal(self, goal: Goal) -> Self {
+        MapperBuilder { goal, ..self }
+    }
+
+    /// How much to prove.
+    #[must_use]
+    pub fn proving(self, proving: Proving) -> Self {
+        MapperBuilder { proving, ..self }
+    }
+
+    /// What visits look like beyond their stars. By default nothing is known. It counts in the posterior only.
+    #[must_use]
+    pub fn appearance(self, appearance: Appearance) -> Self {
+        MapperBuilder { appearance, ..self }
+    }
+
+    /// When to stop before the end.
+    #[must_use]
+    pub fn limits(self, limits: Limits) -> Self {
+        MapperBuilder { limits, ..self }
+    }
+
+    /// How many threads, 0 for one per core; never more than are [useful](crate::useful_threads). The result does not
+    /// depend on it.
+    #[must_use]
+    pub fn threads(self, threads: usize) -> Self {
+        MapperBuilder { threads, ..self }
+    }
+
+    /// A window on the search for other threads.
+    #[must_use]
+    pub fn monitor(self, monitor: Arc<Monitor>) -> Self {
+        MapperBuilder { monitor, ..self }
+    }
+
+    /// A mapper that has seen its first star, and knows no bearings of its ends.
+    ///
+    /// # Errors
+    /// If the operating system gives no threads, or the model makes no sense.
+    pub fn start(self, star: &Star) -> Result<Mapper, MapperError> {
+        Mapper::new(self, Experience::new(star, &[]))
+    }
+
+    /// A mapper that has seen its first star, with the bearings of its ends where they were measured, rad.
+    ///
+    /// # Errors
+    /// If the operating system gives no threads, or the model makes no sense.
+    ///
+    /// # Panics
+    /// If there are bearings, but not one for each end.
+    pub fn start_with(self, star: &Star, bearings: &[Option<f64>]) -> Result<Mapper, MapperError> {
+        assert!(bearings.is_empty() || bearings.len() == star.ends().len(), "one bearing for each end");
+        Mapper::new(self, Experience::new(star, bearings))
+    }
+
+    /// A mapper that has been through a whole exploration, and has searched its tree.
+    ///
+    /// # Errors
+    /// If the operating system gives no threads, if the model makes no sense or asks for measurements that are not there, or
+    /// if there is no map and some layout cannot be computed.
+    pub fn explain(self, exploration: &Exploration) -> Result<Mapper, MapperError> {
+        let mut mapper = Mapper::new(self, Experience::from(exploration))?;
+        mapper.advance();
+        match mapper.unsolvable() {
+            Some((travels, problem)) if mapper.is_empty() => {
+                Err(MapperError::Unsolvable { travels, problem: problem.clone() })
+            }
+            _ => Ok(mapper),
+        }
+    }
+
+    /// Counts all hypotheses about an exploration and keeps none, in memory that does not grow with their
+    /// number. Neither order nor goal matters, and maps are ranked by preference.
+    ///
+    /// A limit or an interruption ends the count early; the report then covers the branches of the
+    /// tree that were counted to their end, and is the same for any number of threads if it was the
+    /// limit on nodes.
+    ///
+    /// # Errors
+    /// If the operating system gives no threads.
+    pub fn count(self, exploration: &Exploration) -> Result<Report, ThreadsError> {
+        let experience = &Experience::from(exploration);
+        let crew = Crew::new(self.threads)?;
+        let watch = Watch::start(self.limits, &self.monitor);
+        let preference = match self.objective {
+            Objective::Preference(preference) => preference,
+            Objective::Posterior(_) => Preference::default(),
+        };
+        let context = Context { experience, axioms: &self.axioms, crew: &crew, watch: &watch };
+        Ok(count(context, preference))
+    }
+
+    /// What is sought, and in which order, in a few words.
+    pub(crate) fn strategy(&self) -> String {
+        let order = match self.order {
+            Order::BreadthFirst => "breadth-first",
+            Order::BestFirst => "best-first",
+            Order::Cyclic => "cyclic best-first with proof",
+            Order::Proof => "least bound first with proof",
+        };
+        let objective = match self.objective {
+            Objective::Preference(_) => "by preference",
+            Objective::Posterior(_) => "by posterior",
+        };
+        let goal = match (self.goal, self.order) {
+            (Goal::AnyMap, _) | (_, Order::BreadthFirst) => "",
+            (Goal::ClosedMap, Order::BestFirst) => ", back until closed",
+            (Goal::ClosedMap, _) => ", closed maps",
+        };
+        format!("{order} {objective}{goal}")
+    }
+}

@@ -1,0 +1,207 @@
+//! Certificates: what a proof rests on, as text that another program can check by itself.
+//!
+//! The format is described in docs/certificate.md.
+
+use std::fmt::Write;
+
+use hssh_causal::Exploration;
+use hssh_topology::{GenusRank, Measure, Outcome};
+
+use crate::builder::{MapperBuilder, Objective};
+use crate::cursor::Cursor;
+use crate::engine::Engine;
+use crate::experience::Experience;
+use crate::leaf::Appraise;
+use crate::order::{Goal, Order};
+use crate::posterior::{ByPosterior, MapPrior, Metrical, PlacePrior};
+use crate::preference::ByPreference;
+use crate::report::{Proof, Score};
+use crate::tree::{NodeId, Tree};
+
+/// What a certificate says of a node of the tree.
+#[derive(Clone, Copy, Debug)]
+enum Entry {
+    /// The recursive step was applied.
+    Expanded,
+    /// Every map that comes of it is worth no more than that.
+    Open(Score),
+    /// It explains everything and is worth that.
+    Found(Score),
+    /// No closed map comes of it.
+    TurnedDown,
+}
+
+/// Of a search by preference.
+pub(crate) fn by_preference(
+    engine: &Engine<ByPreference>,
+    options: &MapperBuilder,
+    experience: &Experience,
+    exploration: &Exploration,
+) -> String {
+    let preference = engine.appraiser.preference;
+    let genus = match preference.genus {
+        GenusRank::Ignored => "ignored",
+        GenusRank::First => "first",
+        GenusRank::Last => "last",
+    };
+    let mut entries = entries(engine);
+    if options.order == Order::BreadthFirst {
+        let mut cursor = Cursor::new(experience);
+        for node in engine.fringe.nodes.clone().map(NodeId::new) {
+            let measure = Measure::of(&cursor.go_to(node, &engine.tree, experience).map);
+            let score = preference.measure(preference.rank(measure));
+            entries[node.index()] = Entry::Found(Score::Measure(score));
+        }
+    }
+    let mut text = head(options, exploration);
+    let _ = writeln!(text, "objective preference {genus}");
+    let measures = entries.iter().filter_map(|entry| match entry {
+        Entry::Found(Score::Measure(measure)) => Some(*measure),
+        _ => None,
+    });
+    let best = measures.min_by_key(|measure| preference.rank(*measure)).map(Score::Measure);
+    text += &body(&engine.tree, &entries, best, "");
+    text
+}
+
+/// Of a search by posterior.
+pub(crate) fn by_posterior(
+    engine: &Engine<ByPosterior>,
+    options: &MapperBuilder,
+    proof: Proof,
+    exploration: &Exploration,
+) -> String {
+    let mut text = head(options, exploration);
+    text += "objective posterior\n";
+    if let Objective::Posterior(model) = options.objective {
+        text += &match (model.metrical, engine.appraiser.tariff.corridor()) {
+            (Metrical::Ignored, _) => "metrical ignored\n".to_owned(),
+            (Metrical::Evidence(PlacePrior::Uniform(prior)), _) => {
+                format!("metrical evidence uniform {:?}\n", prior.area())
+            }
+            (Metrical::Evidence(_), Some(corridor)) => {
+                let crate::Corridor { length, spread, deviation, crooked } = corridor;
+                format!("metrical evidence corridor {length:?} {spread:?} {deviation:?} {crooked:?}\n")
+            }
+            (Metrical::Likelihood | Metrical::Evidence(_), _) => "metrical likelihood\n".to_owned(),
+        };
+        text += &match model.prior {
+            MapPrior::Flat => "prior flat\n".to_owned(),
+            MapPrior::Choices => "prior choices\n".to_owned(),
+            MapPrior::Simplicity(weights) => {
+                format!("prior simplicity {:?} {:?} {:?}\n", weights.c1, weights.c2, weights.c3)
+            }
+        };
+    }
+    for (later, earlier, rotation, ratio) in engine.appraiser.appearance.ratios() {
+        let _ = writeln!(text, "appearance {later} {earlier} {rotation} {ratio:?}");
+    }
+    let mut after = String::new();
+    let _ = writeln!(after, "rest {:?}", proof.rest.unwrap_or(0.0));
+    if engine.appraiser.measured.is_some() {
+        let _ = writeln!(after, "trust lowest-minimum {}", engine.solved);
+    }
+    text += &body(&engine.tree, &entries(engine), proof.best, &after);
+    text
+}
+
+fn head(options: &MapperBuilder, exploration: &Exploration) -> String {
+    let (travels, stars) = (exploration.travels().len(), exploration.star_types().len());
+    let print = fingerprint(exploration.to_ron().as_bytes());
+    let axioms = &options.axioms;
+    let most = |most: Option<u32>| most.map_or("null".to_owned(), |most| most.to_string());
+    let goal = match (options.goal, options.order) {
+        (Goal::ClosedMap, Order::BestFirst | Order::Cyclic | Order::Proof) => "closed",
+        (Goal::AnyMap, _) | (_, Order::BreadthFirst) => "any",
+    };
+    format!(
+        "hssh-certificate 1\n\
+         exploration {travels} {stars} {print:016x}\n\
+         axioms {{\"no_self_intersection\":{},\"no_circular_path\":{},\"max_places\":{},\"max_genus\":{},\
+         \"perpendicular\":{},\"consistent_boundaries\":{}}}\n\
+         goal {goal}\n",
+        axioms.no_self_intersection,
+        axioms.no_circular_path,
+        most(axioms.max_places),
+        most(axioms.max_genus),
+        axioms.perpendicular,
+        axioms.consistent_boundaries,
+    )
+}
+
+/// What is said of each node: what was found, what is open, and that all others were expanded.
+fn entries<A: Appraise>(engine: &Engine<A>) -> Vec<Entry> {
+    let Engine { appraiser, tree, frontier, found, rejected, .. } = engine;
+    let mut entries = vec![Entry::Expanded; tree.len()];
+    let travels = engine.travels();
+    for leaf in frontier.leaves() {
+        let is_map = leaf.depth() == travels && appraiser.is_settled(leaf);
+        entries[leaf.node.index()] = match appraiser.bound(leaf) {
+            _ if is_map => Entry::Found(appraiser.score(leaf.key)),
+            Some(bound) => Entry::Open(appraiser.score(bound)),
+            None => Entry::Open(appraiser.score(leaf.key)),
+        };
+    }
+    for found in found {
+        entries[found.leaf.node.index()] = Entry::Found(appraiser.score(found.leaf.key));
+    }
+    for leaf in rejected {
+        entries[leaf.node.index()] = Entry::TurnedDown;
+    }
+    entries
+}
+
+/// The values, and the tree in depth-first order. The children of a node stand together, in the order of choice.
+fn body(tree: &Tree, entries: &[Entry], best: Option<Score>, more: &str) -> String {
+    let maps = entries.iter().filter(|entry| matches!(entry, Entry::Found(_))).count();
+    let mut text = format!("best {}\nmaps {maps}\n{more}tree\n", best.map_or("none".to_owned(), plain));
+
+    let mut first_child = vec![u32::MAX; tree.len()];
+    let mut children = vec![0_u32; tree.len()];
+    for node in tree.nodes() {
+        if let Some(parent) = tree.parent(node) {
+            let first = &mut first_child[parent.index()];
+            *first = (*first).min(node.index() as u32);
+            children[parent.index()] += 1;
+        }
+    }
+    let mut expanded = 0_u64;
+    let flush = |text: &mut String, expanded: &mut u64| {
+        if *expanded > 0 {
+            let _ = writeln!(text, "e {expanded}");
+            *expanded = 0;
+        }
+    };
+    let mut stack = vec![NodeId::ROOT];
+    while let Some(node) = stack.pop() {
+        match entries[node.index()] {
+            Entry::Expanded => expanded += 1,
+            entry => {
+                flush(&mut text, &mut expanded);
+                match entry {
+                    Entry::Open(score) => text += &format!("o {}\n", plain(score)),
+                    Entry::Found(score) => text += &format!("f {}\n", plain(score)),
+                    _ => text += "x\n",
+                }
+            }
+        }
+        let first = first_child[node.index()];
+        stack.extend((0..children[node.index()]).rev().map(|child| NodeId::new(first + child)));
+    }
+    flush(&mut text, &mut expanded);
+    text += "end\n";
+    text
+}
+
+fn plain(score: Score) -> String {
+    match score {
+        Score::Measure(Measure { f1, f2, f3, genus }) => format!("{f1} {f2} {f3} {genus}"),
+        Score::Nats(nats) => format!("{nats:?}"),
+    }
+}
+
+/// FNV-1a, 64 bits.
+fn fingerprint(bytes: &[u8]) -> u64 {
+    let step = |hash: u64, &byte: &u8| (hash ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3);
+    bytes.iter().fold(0xcbf2_9ce4_8422_2325, step)
+}

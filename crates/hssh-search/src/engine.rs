@@ -1,0 +1,311 @@
+//! One search through one tree, whatever it looks for and in whatever order.
+
+use hssh_metrics::SolveError;
+
+use crate::branch::Branch;
+use crate::context::Context;
+use crate::cursor::Cursor;
+use crate::frontier::Frontier;
+use crate::leaf::{Appraise, Grown, Leaf};
+use crate::limits::StopReason;
+use crate::measured::MeasurementError;
+use crate::order::{Fringe, Goal, Order, Proving, Sweep, matters};
+use crate::report::Tally;
+use crate::tree::Tree;
+
+/// A map that explains everything.
+#[derive(Clone, Debug)]
+pub(crate) struct Found<A: Appraise> {
+    pub(crate) leaf: Leaf<A>,
+    /// What decides between equal maps.
+    pub(crate) branch: Branch,
+}
+
+/// A search under way. What was observed so far is explained by [`advance`](Self::advance); after
+/// [`observe`](Self::observe) it goes on from what it has.
+#[derive(Debug)]
+pub(crate) struct Engine<A: Appraise> {
+    pub(crate) appraiser: A,
+    pub(crate) order: Order,
+    pub(crate) goal: Goal,
+    pub(crate) proving: Proving,
+    pub(crate) tree: Tree,
+    pub(crate) tally: Tally,
+    pub(crate) frontier: Frontier<A>,
+    /// Of breadth-first.
+    pub(crate) fringe: Fringe,
+    /// Of cyclic best-first.
+    pub(crate) sweep: Sweep,
+    /// Maps that explain everything, the best first.
+    pub(crate) found: Vec<Found<A>>,
+    /// Hypotheses turned down because no closed map can come of them, until there is another travel.
+    pub(crate) rejected: Vec<Leaf<A>>,
+    /// Layouts found by least squares.
+    pub(crate) solved: u64,
+    /// By what factors keys rose of what was promised, where that was relied on, each with the bound of the hypothesis.
+    pub(crate) factors: Vec<(Option<A::Key>, f64)>,
+    /// How many travels the first hypothesis explains that has no computable layout, and why it has none.
+    pub(crate) unsolvable: Option<(usize, SolveError)>,
+    /// What a map may be worth and still matter; nothing if there is no map yet.
+    pub(crate) reach: Option<A::Key>,
+    /// Bytes of all leaves.
+    pub(crate) bytes: u64,
+    /// Cursors that wait where they were used last.
+    pub(crate) cursors: Vec<Cursor>,
+    /// How many travels the search knows of.
+    travels: usize,
+}
+
+impl<A: Appraise> Engine<A> {
+    /// A search that has not begun.
+    ///
+    /// # Errors
+    /// If a travel cannot be used.
+    pub(crate) fn new(
+        mut appraiser: A,
+        order: Order,
+        goal: Goal,
+        proving: Proving,
+        context: Context<'_>,
+    ) -> Result<Self, MeasurementError> {
+        let tree = Tree::new();
+        appraiser.observe(context.experience, &tree)?;
+        let root = appraiser.root(context);
+        let mut engine = Engine {
+            appraiser,
+            order,
+            goal,
+            proving,
+            tree,
+            tally: Tally::new(),
+            frontier: Frontier::new(),
+            fringe: Fringe::default(),
+            sweep: Sweep::default(),
+            found: Vec::new(),
+            rejected: Vec::new(),
+            solved: 0,
+            factors: Vec::new(),
+            unsolvable: None,
+            reach: None,
+            bytes: 0,
+            cursors: Vec::new(),
+            travels: context.travels(),
+        };
+        engine.frontier.make_room(context.travels());
+        if order != Order::BreadthFirst || A::WEIGHS {
+            engine.push(root);
+        }
+        Ok(engine)
+    }
+
+    /// Takes notice of the travels that are new: what explained everything is open again, and every bound looks
+    /// ahead to them.
+    ///
+    /// # Errors
+    /// If a travel cannot be used; the search is as it was then.
+    pub(crate) fn observe(&mut self, context: Context<'_>) -> Result<(), MeasurementError> {
+        let before = self.travels;
+        if before == context.travels() {
+            return Ok(());
+        }
+        self.appraiser.observe(context.experience, &self.tree)?;
+        self.travels = context.travels();
+        self.frontier.make_room(self.travels);
+        if !self.found.is_empty() {
+            // What explained everything goes first.
+            self.sweep = Sweep { from: before, ..Sweep::default() };
+        }
+        self.sweep.slack = 0.0;
+        self.reach = None;
+        let found = self.found.drain(..).map(|found| found.leaf);
+        let mut leaves: Vec<Leaf<A>> = found.chain(self.rejected.drain(..)).collect();
+        leaves.extend(self.frontier.drain());
+        leaves.sort_unstable_by_key(|leaf| leaf.node);
+        self.bytes = 0;
+        let mut cursor = self.lend_cursor(context);
+        for mut leaf in leaves {
+            self.appraiser.renew(&mut leaf, before, &mut cursor, &self.tree, context);
+            self.push(leaf);
+        }
+        self.cursors.push(cursor);
+        Ok(())
+    }
+
+    /// Searches on until everything observed is explained as well as was asked for, or a limit stops it.
+    pub(crate) fn advance(&mut self, context: Context<'_>) -> StopReason {
+        match self.order {
+            Order::BreadthFirst => self.breadth_first(context),
+            Order::BestFirst => self.best_first(context),
+            Order::Cyclic => self.cyclic(context),
+            Order::Proof => self.least_bound_first(context),
+        }
+    }
+
+    /// How many travels the search knows of.
+    pub(crate) fn travels(&self) -> usize {
+        self.travels
+    }
+
+    /// Why the search has to stop now, if it has to.
+    pub(crate) fn stop(&self, context: Context<'_>) -> Option<StopReason> {
+        context.stop(&self.tree, self.bytes)
+    }
+
+    pub(crate) fn lend_cursor(&mut self, context: Context<'_>) -> Cursor {
+        self.cursors.pop().unwrap_or_else(|| Cursor::new(context.experience))
+    }
+
+    /// The end of a search that found everything it looked for.
+    pub(crate) fn proved(&self) -> StopReason {
+        if self.found.is_empty() { StopReason::Exhausted } else { StopReason::Proved }
+    }
+
+    /// Whether something that matters may come of a leaf.
+    pub(crate) fn matters(&self, leaf: &Leaf<A>) -> bool {
+        matters(&self.appraiser, leaf, self.reach)
+    }
+
+    /// Opens a hypothesis.
+    pub(crate) fn push(&mut self, leaf: Leaf<A>) {
+        self.bytes += self.appraiser.bytes(&leaf);
+        self.frontier.push(leaf);
+    }
+
+    /// Sets a hypothesis aside.
+    pub(crate) fn park(&mut self, leaf: Leaf<A>) {
+        self.bytes += self.appraiser.bytes(&leaf);
+        self.frontier.park(leaf);
+    }
+
+    /// Turns a hypothesis down: no closed map comes of it.
+    pub(crate) fn reject(&mut self, leaf: Leaf<A>) {
+        self.bytes += self.appraiser.bytes(&leaf);
+        self.rejected.push(leaf);
+    }
+
+    /// Settles a hypothesis; whether that is possible. One that has no layout has had its turn.
+    pub(crate) fn settle(&mut self, leaf: &mut Leaf<A>, cursor: &mut Cursor, context: Context<'_>) -> bool {
+        self.solved += 1;
+        match self.appraiser.settle(leaf, cursor, &self.tree, context) {
+            Ok(factor) => {
+                self.factors.extend(factor.map(|factor| (self.appraiser.bound(leaf), factor)));
+                true
+            }
+            Err(problem) => {
+                self.unsolvable.get_or_insert((leaf.depth(), problem));
+                false
+            }
+        }
+    }
+
+    /// Puts the successors of an expanded hypothesis into the tree; they are its leaves.
+    pub(crate) fn plant(
+        &mut self,
+        leaf: &Leaf<A>,
+        grown: Result<Grown<A>, SolveError>,
+        context: Context<'_>,
+    ) -> Vec<Leaf<A>> {
+        let grown = match grown {
+            Ok(grown) => grown,
+            Err(problem) => {
+                self.unsolvable.get_or_insert((leaf.depth() + 1, problem));
+                return Vec::new();
+            }
+        };
+        self.tally.enter(leaf, &grown, &mut self.tree);
+        context.watch.add_nodes(grown.successors.len() as u64);
+        context.watch.explained(leaf.depth() + usize::from(!grown.successors.is_empty()));
+        let tree = &mut self.tree;
+        let planted = grown.successors.into_iter().map(|(child, leaf)| Leaf { node: tree.push(child), ..leaf });
+        planted.collect()
+    }
+
+    /// Puts the successors of an expanded hypothesis into the tree and where they belong.
+    pub(crate) fn enter(
+        &mut self,
+        leaf: &Leaf<A>,
+        grown: Result<Grown<A>, SolveError>,
+        context: Context<'_>,
+    ) {
+        for next in self.plant(leaf, grown, context) {
+            let is_whole = next.depth() == self.travels;
+            if is_whole && self.order == Order::Proof && self.appraiser.is_settled(&next) {
+                self.judge(next);
+            } else if !is_whole
+                && self.appraiser.turns_down_early()
+                && !self.goal.accepts(next.is_closable(self.travels))
+            {
+                self.reject(next);
+            } else if self.order == Order::BestFirst || self.matters(&next) {
+                self.push(next);
+            } else {
+                self.park(next);
+            }
+        }
+    }
+
+    /// A settled hypothesis that explains everything: it is found, turned down, or too bad to matter.
+    pub(crate) fn judge(&mut self, leaf: Leaf<A>) {
+        if !self.goal.accepts(leaf.is_closed()) {
+            self.reject(leaf);
+        } else if A::WEIGHS || self.matters(&leaf) {
+            self.arrive(leaf);
+        } else {
+            self.park(leaf);
+        }
+    }
+
+    /// A map that explains everything.
+    pub(crate) fn arrive(&mut self, leaf: Leaf<A>) {
+        self.bytes += self.appraiser.bytes(&leaf);
+        let branch = self.tree.choices(leaf.node);
+        let found = Found { leaf, branch };
+        let order = |found: &Found<A>| (found.leaf.key, found.branch.clone());
+        let place = self.found.partition_point(|other| {
+            other.leaf.key < found.leaf.key || (other.leaf.key == found.leaf.key && order(other) < order(&found))
+        });
+        self.found.insert(place, found);
+        if place == 0 {
+            self.sweep.best_since = self.tally.expanded;
+        }
+        self.set_reach();
+        if !A::WEIGHS {
+            let kept = self.found.partition_point(|found| self.matters(&found.leaf));
+            for found in self.found.split_off(kept) {
+                self.frontier.park(found.leaf);
+            }
+        }
+    }
+
+    /// Sets what still matters: whatever is no worse than the last of the best maps that were asked for.
+    pub(crate) fn set_reach(&mut self) {
+        let last = self.found.get(self.proving.best.max(1) - 1);
+        self.reach = last.map(|found| self.appraiser.reach(found.leaf.key, self.sweep.slack));
+    }
+
+    /// The least that any map can be worth that was not found; nothing if there is none, or if nothing is known.
+    pub(crate) fn open_bound(&self) -> Option<A::Key> {
+        self.frontier.leaves().filter_map(|leaf| self.appraiser.bound(leaf)).min()
+    }
+
+    /// The probability of everything that is still open, at most, where there are probabilities.
+    pub(crate) fn rest(&self) -> Option<f64> {
+        if !A::WEIGHS {
+            return None;
+        }
+        let found = log_sum(self.found.iter().map(|found| -self.appraiser.nats(found.leaf.key)));
+        let open = log_sum(self.frontier.leaves().map(|leaf| self.appraiser.log_mass(leaf)));
+        Some(if open == f64::NEG_INFINITY { 0.0 } else { 1.0 / (1.0 + (found - open).exp()) })
+    }
+}
+
+/// ln Σ eˣ.
+fn log_sum(logs: impl Iterator<Item = f64>) -> f64 {
+    let logs: Vec<f64> = logs.collect();
+    let most = logs.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+    if most == f64::NEG_INFINITY {
+        most
+    } else {
+        most + logs.iter().map(|log| (log - most).exp()).sum::<f64>().ln()
+    }
+}

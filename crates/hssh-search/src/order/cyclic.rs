@@ -1,0 +1,208 @@
+//! Cyclic best-first: the best hypothesis of every number of travels explained, in turn, until the answer is proved.
+//!
+//! Comparing only hypotheses that explain equally much is fair whatever a travel costs, so that a complete map is found
+//! soon; and none is dropped, so that the search can come back. A long exploration is swept by several fronts at
+//! once, a fixed number of levels apart: what one front does no other sees before the step is over, so that threads can
+//! share the step, and the result does not depend on how many they are.
+
+use hssh_metrics::SolveError;
+
+use crate::context::Context;
+use crate::cursor::Cursor;
+use crate::engine::Engine;
+use crate::frontier::Level;
+use crate::leaf::{Appraise, Grown, Leaf};
+use crate::limits::StopReason;
+use crate::tree::Tree;
+
+/// Up to so many travels there is one front.
+const ONE_FRONT: usize = 32;
+
+/// How many fronts there are for more.
+const FRONTS: usize = 8;
+
+/// By how many nats the reach of a search grows as long as too much probability is left.
+const WIDENING: f64 = 1.0;
+
+/// How far the sweeps are.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct Sweep {
+    /// Levels before this one have their turn in the next cycle only.
+    pub(crate) from: usize,
+    /// Of the reach, beyond the worst of the best maps: nats.
+    pub(crate) slack: f64,
+    /// Expansions when the best map became the best.
+    pub(crate) best_since: u64,
+}
+
+/// What came of one level's turn.
+struct Turn<A: Appraise> {
+    /// The hypothesis that was expanded.
+    expanded: Option<(Leaf<A>, Result<Grown<A>, SolveError>)>,
+    /// Those that turned out to be beyond reach.
+    beyond: Vec<Leaf<A>>,
+    /// Those that have no layout.
+    unsolvable: Vec<(Leaf<A>, SolveError)>,
+    /// By what factors keys rose of what was promised, each with the leaf's bound.
+    factors: Vec<(Option<A::Key>, f64)>,
+    solved: u64,
+}
+
+impl<A: Appraise> Engine<A> {
+    /// Sweeps until the best maps are proved, and so little probability is left as was asked for.
+    pub(crate) fn cyclic(&mut self, context: Context<'_>) -> StopReason {
+        let travels = context.travels();
+        let apart = if travels <= ONE_FRONT { travels + 1 } else { travels.div_ceil(FRONTS) };
+        loop {
+            let mut idle = true;
+            let from = std::mem::take(&mut self.sweep.from);
+            for step in 0..apart {
+                let turns = (step..travels).step_by(apart).filter(|&level| level >= from);
+                idle &= !self.take_turns(turns.collect(), context);
+                if step == travels % apart {
+                    idle &= !self.take_whole(context);
+                }
+                if let Some(reason) = self.stop(context).or_else(|| self.is_out_of_patience()) {
+                    return reason;
+                }
+            }
+            if idle && from == 0 && !self.widen() {
+                return self.proved();
+            }
+        }
+    }
+
+    /// The best hypothesis of each of these levels is expanded; whether there was any.
+    fn take_turns(&mut self, levels: Vec<usize>, context: Context<'_>) -> bool {
+        while self.cursors.len() < levels.len() {
+            self.cursors.push(Cursor::new(context.experience));
+        }
+        let (appraiser, tree, reach) = (&self.appraiser, &self.tree, self.reach);
+        let chosen = levels.iter().scan(0, |from, &level| {
+            let skip = level - std::mem::replace(from, level + 1);
+            Some(skip)
+        });
+        let mut all = self.frontier.levels.iter_mut();
+        let levels: Vec<_> = chosen.filter_map(|skip| all.nth(skip)).collect();
+        let jobs: Vec<_> = levels.into_iter().zip(&mut self.cursors).collect();
+        let turns = context.crew.each(jobs, |(level, cursor)| {
+            take_turn(appraiser, level, reach, cursor, tree, context)
+        });
+        let mut any = false;
+        for turn in turns {
+            any |= self.end_turn(turn, context);
+        }
+        any
+    }
+
+    /// Enters what came of a level's turn; whether anything was expanded.
+    fn end_turn(&mut self, turn: Turn<A>, context: Context<'_>) -> bool {
+        let Turn { expanded, beyond, unsolvable, factors, solved } = turn;
+        self.solved += solved;
+        self.factors.extend(factors);
+        for (leaf, problem) in unsolvable {
+            self.bytes -= self.appraiser.bytes(&leaf);
+            self.unsolvable.get_or_insert((leaf.depth(), problem));
+        }
+        beyond.into_iter().for_each(|leaf| self.frontier.park(leaf));
+        let Some((leaf, grown)) = expanded else { return false };
+        self.bytes -= self.appraiser.bytes(&leaf);
+        self.enter(&leaf, grown, context);
+        true
+    }
+
+    /// All hypotheses within reach that explain everything are maps found, or turned down; whether there was any.
+    fn take_whole(&mut self, context: Context<'_>) -> bool {
+        let mut cursor = self.lend_cursor(context);
+        let mut any = false;
+        loop {
+            let level = &mut self.frontier.levels[context.travels()];
+            let mut turn = choose(&self.appraiser, level, self.reach, &mut cursor, &self.tree, context);
+            let chosen = turn.1.take();
+            self.end_turn(turn.0, context);
+            let Some(leaf) = chosen else { break };
+            self.bytes -= self.appraiser.bytes(&leaf);
+            any = true;
+            self.judge(leaf);
+            if self.stop(context).is_some() {
+                break;
+            }
+        }
+        self.cursors.push(cursor);
+        any
+    }
+
+    /// Nothing is left within reach: reaches farther if too much probability is left; whether it does.
+    fn widen(&mut self) -> bool {
+        let (Some(least), Some(reach)) = (self.open_bound(), self.reach) else { return false };
+        if self.rest().is_none_or(|rest| rest <= self.proving.rest) {
+            return false;
+        }
+        self.sweep.slack += self.appraiser.distance(reach, least).max(0.0) + WIDENING;
+        self.set_reach();
+        let (appraiser, reach) = (&self.appraiser, self.reach);
+        self.frontier.unpark(|leaf| matters(appraiser, leaf, reach));
+        true
+    }
+
+    fn is_out_of_patience(&self) -> Option<StopReason> {
+        let patience = self.proving.patience.filter(|_| !self.found.is_empty())?;
+        let waited = self.tally.expanded - self.sweep.best_since;
+        (waited >= patience).then_some(StopReason::Found)
+    }
+}
+
+/// Whether something that matters may come of a leaf.
+pub(crate) fn matters<A: Appraise>(appraiser: &A, leaf: &Leaf<A>, reach: Option<A::Key>) -> bool {
+    reach.is_none_or(|reach| appraiser.bound(leaf).is_none_or(|bound| bound <= reach))
+}
+
+/// Expands the best hypothesis of a level.
+fn take_turn<A: Appraise>(
+    appraiser: &A,
+    level: &mut Level<A>,
+    reach: Option<A::Key>,
+    cursor: &mut Cursor,
+    tree: &Tree,
+    context: Context<'_>,
+) -> Turn<A> {
+    let (mut turn, chosen) = choose(appraiser, level, reach, cursor, tree, context);
+    turn.expanded = chosen.map(|leaf| {
+        let grown = appraiser.grow(&leaf, cursor, tree, context);
+        (leaf, grown)
+    });
+    turn
+}
+
+/// Takes the best hypothesis of a level that something may come of. It is settled.
+fn choose<A: Appraise>(
+    appraiser: &A,
+    level: &mut Level<A>,
+    reach: Option<A::Key>,
+    cursor: &mut Cursor,
+    tree: &Tree,
+    context: Context<'_>,
+) -> (Turn<A>, Option<Leaf<A>>) {
+    let mut turn =
+        Turn { expanded: None, beyond: Vec::new(), unsolvable: Vec::new(), factors: Vec::new(), solved: 0 };
+    while let Some(mut leaf) = level.pop() {
+        if matters(appraiser, &leaf, reach) && !appraiser.is_settled(&leaf) {
+            turn.solved += 1;
+            match appraiser.settle(&mut leaf, cursor, tree, context) {
+                Ok(factor) => turn.factors.extend(factor.map(|factor| (appraiser.bound(&leaf), factor))),
+                Err(problem) => {
+                    turn.unsolvable.push((leaf, problem));
+                    continue;
+                }
+            }
+        }
+        if !matters(appraiser, &leaf, reach) {
+            turn.beyond.push(leaf);
+        } else if level.peek().is_some_and(|other| *other < leaf) {
+            level.push(leaf);
+        } else {
+            return (turn, Some(leaf));
+        }
+    }
+    (turn, None)
+}
