@@ -1,6 +1,8 @@
 //! The branching factor with and without planarity, measured and predicted (equation (3.1)).
 
-use hssh_topology::{Axioms, Derivation, Extension, Hypothesis, Observation, Removals, StarCatalog};
+use hssh_topology::{
+    Axioms, Derivation, Extension, Hypothesis, Observation, PendingGateway, Removals, StarCatalog,
+};
 use serde::Serialize;
 
 /// One expansion of a planar map, as equation (3.1) looks at it.
@@ -65,15 +67,17 @@ pub fn branching(
     let step = hypothesis.step(observation, catalog, &axioms, &mut extensions, &mut removals);
     let Derivation::Expand(exit) = step else { return None };
     let map = &hypothesis.map;
+    let exit = map.pending(exit)?;
     let is_planar = |extension: &Extension| match *extension {
         Extension::NewPlace => true,
-        Extension::Closure(gateway) => map.share_face(exit, gateway),
+        Extension::Closure(gateway) => {
+            map.pending(gateway).is_some_and(|gateway| map.share_face(exit, gateway))
+        }
     };
-    let dart = map.dart(exit)?;
-    let in_face = map.graph().pending_edges_of_face(dart).count() as u32;
-    let matching = |gateway| {
-        let place = map.place(gateway);
-        catalog.matches(observation.star, observation.entry, map.star(place), map.local(gateway))
+    let in_face = map.graph().pending_edges_of_face(exit.edge()).count() as u32;
+    let matching = |gateway: PendingGateway| {
+        let (place, olp) = (map.place(gateway.olp()), map.local(gateway.olp()));
+        catalog.matches(observation.star, observation.entry, map.star(place), olp)
     };
     let others = map.pending_gateways().filter(|&gateway| gateway != exit && matching(gateway));
     let (same, different): (Vec<_>, Vec<_>) = others.partition(|&gateway| map.share_face(exit, gateway));

@@ -2,7 +2,7 @@
 
 use std::sync::Mutex;
 
-use hssh_topology::{Derivation, Extension, Hypothesis, MapOlp, Removals};
+use hssh_topology::{Derivation, Extension, Hypothesis, Removals};
 use rayon::prelude::*;
 
 use crate::context::Context;
@@ -105,7 +105,7 @@ pub(crate) fn expand(
         }
         Derivation::PredictedInconsistent => Outcome::Refuted,
         Derivation::Expand(exit) => {
-            let new_arrival = MapOlp(hypothesis.map.olp_count() + observation.entry.0);
+            let new_arrival = hypothesis.map.olp_of_next_place(observation.entry);
             for &extension in extensions.iter() {
                 let arrival = match extension {
                     Extension::NewPlace => new_arrival,

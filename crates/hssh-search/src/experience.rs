@@ -14,7 +14,7 @@ pub struct Experience {
     pub observations: Vec<Observation>,
 }
 
-/// The star types of the exploration keep their numbers: `StarType(i)` becomes `StarId(i)`.
+/// The star types of the exploration keep their numbers: `StarType(i)` becomes `StarId::new(i)`.
 impl From<&Exploration> for Experience {
     fn from(exploration: &Exploration) -> Self {
         let mut catalog = StarCatalog::new();
@@ -24,9 +24,9 @@ impl From<&Exploration> for Experience {
         let observe = |travel: &hssh_causal::Travel| Observation {
             exit: travel.exit,
             entry: travel.entry,
-            star: StarId(travel.star.0),
+            star: StarId::new(travel.star.0),
         };
         let observations = exploration.travels().iter().map(observe).collect();
-        Experience { catalog, start: StarId(exploration.start().0), observations }
+        Experience { catalog, start: StarId::new(exploration.start().0), observations }
     }
 }

@@ -68,7 +68,7 @@ pub(crate) struct Trail {
 impl Trail {
     /// The place of a visit, as a pose of a graph, and the visit's frame in it.
     pub(crate) fn end(&self, visit: usize) -> (PoseId, Pose) {
-        (PoseId(self.visits[visit].place.0), self.frames[visit])
+        (PoseId(self.visits[visit].place.number()), self.frames[visit])
     }
 }
 
@@ -76,7 +76,7 @@ impl Trail {
 fn turn(exploration: &Exploration, seen: StarType, first: StarType, rotation: u32) -> f64 {
     let (seen, first) = (&exploration.star_types()[seen.index()], &exploration.star_types()[first.index()]);
     let degree = seen.star.degree();
-    let image = |olp: Olp| Olp((olp.0 + rotation) % degree);
+    let image = |olp: Olp| olp.turned(rotation, degree);
     let (of_seen, of_first) = (bearings(seen), bearings(first));
     circular_mean(seen.star.olps().map(|olp| of_first[image(olp).index()] - of_seen[olp.index()]))
 }
@@ -85,7 +85,7 @@ fn turn(exploration: &Exploration, seen: StarType, first: StarType, rotation: u3
 /// that they agree best with those measured.
 fn bearings(named: &NamedStar) -> Vec<f64> {
     let degree = f64::from(named.star.degree());
-    let spread = |olp: Olp| -std::f64::consts::TAU * f64::from(olp.0) / degree;
+    let spread = |olp: Olp| -std::f64::consts::TAU * f64::from(olp.number()) / degree;
     let measured = || named.star.olps().filter_map(|olp| Some(named.bearings[olp.index()]? - spread(olp)));
     let offset = if measured().next().is_some() { circular_mean(measured()) } else { 0.0 };
     named.star.olps().map(|olp| named.bearings[olp.index()].unwrap_or(spread(olp) + offset)).collect()

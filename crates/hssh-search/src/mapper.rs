@@ -73,7 +73,7 @@ pub struct ThreadsError(#[from] rayon::ThreadPoolBuildError);
 #[derive(Clone, PartialEq, Eq, Debug, thiserror::Error)]
 pub enum ObservationError {
     /// The star has no such end.
-    #[error("the star {star} has no end number {}", .olp.0)]
+    #[error("the star {star} has no end number {olp}")]
     NoSuchEnd {
         /// The star.
         star: Star,
@@ -253,12 +253,12 @@ impl Search {
 /// let west: Star = "0+ (0-)".parse()?;
 /// let east: Star = "(0+) 0-".parse()?;
 /// let mut mapper = Mapper::builder().start(&west)?;
-/// mapper.observe(Olp(0), Olp(1), &east)?;
-/// mapper.observe(Olp(1), Olp(0), &west)?;
+/// mapper.observe(Olp::new(0), Olp::new(1), &east)?;
+/// mapper.observe(Olp::new(1), Olp::new(0), &west)?;
 /// mapper.advance();
 /// let maps = mapper.maps(10);
 /// assert_eq!(maps.len(), 1);
-/// assert_eq!((maps[0].measure.f3, maps[0].closed), (2, true));
+/// assert_eq!((maps[0].measure.places, maps[0].closed), (2, true));
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 #[derive(Debug)]
@@ -469,7 +469,7 @@ impl Mapper {
 }
 
 fn usable(star: &Star, olp: Olp) -> Result<(), ObservationError> {
-    if olp.0 >= star.degree() {
+    if olp.number() >= star.degree() {
         return Err(ObservationError::NoSuchEnd { star: star.clone(), olp });
     }
     if star.is_travelable(olp) {

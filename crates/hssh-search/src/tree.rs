@@ -65,7 +65,7 @@ struct Growth {
 }
 
 /// Stands for "no gateway" where a gateway is stored.
-const NO_GATEWAY: MapOlp = MapOlp(u32::MAX);
+const NO_GATEWAY: MapOlp = MapOlp::new(u32::MAX);
 
 impl Growth {
     fn extension(self) -> Extension {

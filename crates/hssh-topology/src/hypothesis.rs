@@ -3,10 +3,10 @@
 use serde::{Deserialize, Serialize};
 
 use crate::axioms::{Axioms, Removals};
-use crate::catalog::{StarCatalog, StarId};
+use crate::catalog::StarCatalog;
+use crate::ids::{MapOlp, Olp, PlaceId, StarId};
 use crate::isomorphism::Isomorphism;
-use crate::map::{MapOlp, PlaceId, TopologicalMap};
-use crate::star::Olp;
+use crate::map::TopologicalMap;
 
 /// What one travel shows: the robot left by `exit` of the star it saw last, and came by `entry` into
 /// a place with the star `star`.
@@ -90,27 +90,28 @@ impl Hypothesis {
             };
         }
 
+        let exit = self.map.pending(exit).expect("the robot leaves by gateways, and this one is not linked");
         match axioms.violated_by_new_place(&self.map) {
             Some(axiom) => removals.record(axiom),
             None => extensions.push(Extension::NewPlace),
         }
         for other in self.map.pending_gateways() {
-            if other != exit && self.looks_like(star, entry, other, catalog) {
+            if other != exit && self.looks_like(star, entry, other.olp(), catalog) {
                 match axioms.violated_by_closure(&self.map, exit, other) {
                     Some(axiom) => removals.record(axiom),
-                    None => extensions.push(Extension::Closure(other)),
+                    None => extensions.push(Extension::Closure(other.olp())),
                 }
             }
         }
         if axioms.consistent_boundaries {
             extensions.retain(|&extension| {
-                self.extend(exit, extension, observation, catalog);
+                self.extend(exit.olp(), extension, observation, catalog);
                 let violated = axioms.violated_by_boundaries(&self.map);
                 self.retract(extension);
                 violated.inspect(|&axiom| removals.record(axiom)).is_none()
             });
         }
-        Derivation::Expand(exit)
+        Derivation::Expand(exit.olp())
     }
 
     /// Whether the observed star, entered by `entry`, matches the star of the place that `arrival`
@@ -136,7 +137,8 @@ impl Hypothesis {
                 self.map.olp(place, observation.entry)
             }
         };
-        self.map.link(exit, arrival);
+        let pending = |olp| self.map.pending(olp).expect("only what is pending is extended");
+        self.map.link(pending(exit), pending(arrival));
         arrival
     }
 

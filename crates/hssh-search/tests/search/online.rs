@@ -98,18 +98,18 @@ fn advancing_twice() {
 fn impossible_observations_are_refused_and_forgotten() {
     let (crossing, tee): (Star, Star) = ("0+ 1+ 0- 1-".parse().unwrap(), "0+ (1+) 0- 1-".parse().unwrap());
     let mut mapper = Mapper::builder().start(&tee).unwrap();
-    let refusal = mapper.observe(Olp(4), Olp(0), &crossing).unwrap_err();
-    assert_eq!(refusal, ObservationError::NoSuchEnd { star: tee.clone(), olp: Olp(4) });
+    let refusal = mapper.observe(Olp::new(4), Olp::new(0), &crossing).unwrap_err();
+    assert_eq!(refusal, ObservationError::NoSuchEnd { star: tee.clone(), olp: Olp::new(4) });
     assert_eq!(refusal.to_string(), "the star [<0+,T>, <1+,C>, <0-,T>, <1-,T>] has no end number 4");
-    let refusal = mapper.observe(Olp(1), Olp(0), &crossing).unwrap_err();
+    let refusal = mapper.observe(Olp::new(1), Olp::new(0), &crossing).unwrap_err();
     assert_eq!(refusal.to_string(), "the end 1+ of the star [<0+,T>, <1+,C>, <0-,T>, <1-,T>] is closed");
-    let refusal = mapper.observe(Olp(0), Olp(1), &tee).unwrap_err();
-    assert_eq!(refusal, ObservationError::ClosedEnd { star: tee.clone(), olp: Olp(1) });
-    assert!(mapper.observe(Olp(0), Olp(9), &crossing).is_err());
+    let refusal = mapper.observe(Olp::new(0), Olp::new(1), &tee).unwrap_err();
+    assert_eq!(refusal, ObservationError::ClosedEnd { star: tee.clone(), olp: Olp::new(1) });
+    assert!(mapper.observe(Olp::new(0), Olp::new(9), &crossing).is_err());
     assert!(mapper.experience().observations.is_empty());
-    mapper.observe(Olp(0), Olp(2), &crossing).unwrap();
+    mapper.observe(Olp::new(0), Olp::new(2), &crossing).unwrap();
     // The exit is now one of the crossing.
-    mapper.observe(Olp(1), Olp(0), &tee).unwrap();
+    mapper.observe(Olp::new(1), Olp::new(0), &tee).unwrap();
     assert_eq!(mapper.advance(), StopReason::Exhausted);
     assert_eq!(mapper.explained(), 2);
 }

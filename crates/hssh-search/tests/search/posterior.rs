@@ -54,7 +54,7 @@ fn best_by_enumeration(
             let visits = mapper.visits(map.node);
             let chi2 = place_by_odometry(exploration, &visits).unwrap().unwrap().chi2;
             let f = weights.of(&cursor.go_to(map.node, mapper.tree(), &experience).map);
-            (chi2 / 2.0 + f.ln(), visits.iter().map(|visit| visit.place.0).collect())
+            (chi2 / 2.0 + f.ln(), visits.iter().map(|visit| visit.place.number()).collect())
         })
         .collect();
     scored.sort_by(|a, b| a.0.total_cmp(&b.0));
@@ -81,7 +81,8 @@ fn the_proof_finds_what_an_enumeration_finds() {
             let search = PosteriorSearch { axioms, ..PosteriorSearch::new(model) };
             let posterior = search.explain(&exploration).unwrap();
             let best = &posterior.maps()[0];
-            let places: Vec<u32> = posterior.visits(best.node).iter().map(|visit| visit.place.0).collect();
+            let places: Vec<u32> =
+                posterior.visits(best.node).iter().map(|visit| visit.place.number()).collect();
             assert!(posterior.report().proved, "{}", posterior.report());
             assert!((best.cost.total() - expected[0].0).abs() < 1e-5, "{:?} {:?}", best.cost, expected[0]);
             assert_eq!(places, expected[0].1);
@@ -157,7 +158,7 @@ fn with_exact_odometry_the_true_map_wins() {
     let exploration = snake_in_grid(4, 4, 0.05, 1);
     let model = PosteriorModel::evidence(&exploration).unwrap();
     let posterior = PosteriorSearch::new(model).explain(&exploration).unwrap();
-    assert_eq!((posterior.maps()[0].measure.f3, posterior.report().ties), (16, 1));
+    assert_eq!((posterior.maps()[0].measure.places, posterior.report().ties), (16, 1));
     assert!(posterior.maps()[0].least_probability > 0.99 || posterior.report().rest > 0.01);
 }
 
@@ -171,7 +172,7 @@ fn the_thesiss_search_selects_the_true_map() {
         ..PosteriorSearch::new(PosteriorModel::THESIS)
     };
     let posterior = search.explain(&exploration).unwrap();
-    assert_eq!(posterior.maps()[0].measure.f3, 16);
+    assert_eq!(posterior.maps()[0].measure.places, 16);
     assert!(posterior.maps()[0].closed);
 }
 

@@ -72,9 +72,9 @@ proptest! {
             let measure = Measure::of(&at(last));
             for node in tree.branch(last) {
                 let bound = bounds[node.0 as usize];
-                let holds = bound.f1 <= measure.f1
-                    && bound.f2 <= measure.f2
-                    && bound.f3 <= measure.f3
+                let holds = bound.undetermined_boundaries <= measure.undetermined_boundaries
+                    && bound.paths <= measure.paths
+                    && bound.places <= measure.places
                     && bound.genus <= measure.genus;
                 prop_assert!(holds, "{} after {} travels bounds {}", bound, tree.depth(node), measure);
             }
