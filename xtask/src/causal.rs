@@ -11,7 +11,7 @@ use std::error::Error;
 use hssh_causal::Exploration;
 use hssh_causal::schema::{Action, Sight, Trace, Turning, View, numbered_views};
 use hssh_search::Mapper;
-use hssh_topology::Travel;
+use hssh_topology::Passability;
 use hypothesis::{Glance, Hypothesis};
 use serde::Serialize;
 
@@ -162,7 +162,7 @@ fn grown(hypotheses: &[Hypothesis], action: Action, glance: Glance) -> Option<Ve
 fn glances(trace: &Trace) -> Vec<Glance> {
     let numbers = numbered_views(trace);
     let glance =
-        |view: &View| Glance { view: numbers[view], travelable: view.ahead().0 == Travel::Travelable };
+        |view: &View| Glance { view: numbers[view], travelable: view.ahead().0 == Passability::Travelable };
     trace.views().map(glance).collect()
 }
 

@@ -82,7 +82,7 @@ fn mapped(
     let Some(best) = maps.first() else { return Ok("  no planar map explains the exploration".to_owned()) };
     let mut text = format!(
         "  {} planar maps explain it, {} of them optimal; the best: {} places, {} paths, closed: {}",
-        report.finals.final_maps, report.finals.optimal, best.measure.f3, best.measure.f2, best.closed
+        report.finals.final_maps, report.finals.optimal, best.measure.places, best.measure.paths, best.closed
     );
     if let Some((placement, positions)) = placed(&mapper, best, exploration)? {
         let frames = visit_frames(&survey.visits, &positions, placement.graph.poses());

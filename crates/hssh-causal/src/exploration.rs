@@ -293,8 +293,12 @@ fn check_labels(named: &NamedStar) -> Result<(), ExplorationError> {
 
 fn usable(named: &NamedStar, olp: Olp, verb: &'static str) -> Result<(), TravelError> {
     let star = &named.star;
-    if olp.0 >= star.degree() {
-        return Err(TravelError::NoSuchEnd { star: named.name.clone(), olp: olp.0, degree: star.degree() });
+    if olp.number() >= star.degree() {
+        return Err(TravelError::NoSuchEnd {
+            star: named.name.clone(),
+            olp: olp.number(),
+            degree: star.degree(),
+        });
     }
     if star.is_travelable(olp) {
         return Ok(());
@@ -314,7 +318,7 @@ mod tests {
     }
 
     fn walk(exit: u32, entry: u32, star: u32) -> Travel {
-        Travel { exit: Olp(exit), entry: Olp(entry), star: StarType(star), odometry: None }
+        Travel { exit: Olp::new(exit), entry: Olp::new(entry), star: StarType(star), odometry: None }
     }
 
     fn refusal(star_types: Vec<NamedStar>, start: u32, travels: Vec<Travel>) -> String {

@@ -32,7 +32,7 @@ fn what_is_written_is_what_is_read() {
     assert_eq!(room.star.ends()[0].label.as_deref(), Some("the \"green\" door # 3"));
     assert_eq!(room.bearings, [Some(12.5_f64.to_radians()), Some((-167.5_f64).to_radians())]);
     let [first, second] = exploration.travels() else { panic!("two travels") };
-    assert_eq!((first.exit, first.entry, &first.odometry), (Olp(0), Olp(3), &None));
+    assert_eq!((first.exit, first.entry, &first.odometry), (Olp::new(0), Olp::new(3), &None));
     assert_eq!(exploration.star_types()[first.star.index()].bearings[0], Some(std::f64::consts::FRAC_PI_2));
     let odometry = second.odometry.unwrap();
     assert_eq!((odometry.x, odometry.y, odometry.theta), (7.9, 0.1, -1.57));
@@ -94,9 +94,12 @@ fn star() -> impl Strategy<Value = (Star, Vec<Option<f64>>)> {
                 bearing = if bearing < -3.0 { bearing + TAU } else { bearing };
             }
             let end = |((name, closed), label)| {
-                let travel =
-                    if closed { hssh_topology::Travel::Closed } else { hssh_topology::Travel::Travelable };
-                StarEnd { name, travel, label }
+                let passability = if closed {
+                    hssh_topology::Passability::Closed
+                } else {
+                    hssh_topology::Passability::Travelable
+                };
+                StarEnd { name, passability, label }
             };
             (
                 Star::new(names.into_iter().zip(closed).zip(labels).map(end))

@@ -92,7 +92,7 @@ fn schemas_carry_distances_and_angles() {
 fn without_angles_a_star_is_known_up_to_a_modulo() {
     let stay = |text: &str, sight, bearings: Vec<Option<f64>>| {
         let star_types = vec![NamedStar { name: "S".to_owned(), star: star(text), bearings }];
-        let travel = Travel { exit: Olp(0), entry: Olp(2), star: StarType(0), odometry: None };
+        let travel = Travel { exit: Olp::new(0), entry: Olp::new(2), star: StarType(0), odometry: None };
         let exploration = Exploration::new(star_types, StarType(0), vec![travel]).unwrap();
         stays(&Trace::of(&exploration, sight, Turning::AllRoundAndAround).unwrap()).remove(0)
     };
@@ -116,7 +116,7 @@ fn without_angles_a_star_is_known_up_to_a_modulo() {
 fn full_turns_add_up() {
     let bearings = [10.0, -70.0, 200.0, 100.0_f64].map(|degrees| Some(degrees.to_radians())).to_vec();
     let named = NamedStar { name: "+".to_owned(), star: star("0+ 1+ 0- 1-"), bearings };
-    let travel = Travel { exit: Olp(0), entry: Olp(2), star: StarType(0), odometry: None };
+    let travel = Travel { exit: Olp::new(0), entry: Olp::new(2), star: StarType(0), odometry: None };
     let exploration = Exploration::new(vec![named], StarType(0), vec![travel]).unwrap();
     let trace = Trace::of(&exploration, Sight::Ahead, Turning::AllRound).unwrap();
     let turned: f64 = trace.schemas().filter_map(|schema| schema.change.rotation).sum();
@@ -125,7 +125,7 @@ fn full_turns_add_up() {
 
 #[test]
 fn a_trace_that_is_none_of_stars_is_refused() {
-    let place = |text: &str| View::of(&star(text), Olp(0), Sight::Place);
+    let place = |text: &str| View::of(&star(text), Olp::new(0), Sight::Place);
     let turn = |view| Step { action: Action::Turn { clockwise: 1 }, change: Change::default(), view };
     let contradiction = Trace::new(place("0+ (1+) 0- 1-"), vec![turn(place("0+ 1+ 0- 1-"))]);
     insta::assert_snapshot!(exploration(&contradiction).unwrap_err(), @"schema 1: after `turn 1` the place looks like `0+ 1+ 0- 1-`, but by the star seen on arrival it should be `(0+) 1+ 0- 1-`");
@@ -173,7 +173,7 @@ fn traces() -> impl Strategy<Value = Trace> {
     let actions =
         prop::sample::select(vec![Action::Travel, Action::Turn { clockwise: 1 }, Action::TurnAround]);
     (views(), prop::collection::vec((actions, views()), 0..7)).prop_map(|(first, steps)| {
-        let view = |text: &str| View::of(&star(text), Olp(0), Sight::Place);
+        let view = |text: &str| View::of(&star(text), Olp::new(0), Sight::Place);
         let step = |(action, text)| Step { action, change: Change::default(), view: view(text) };
         Trace::new(view(first), steps.into_iter().map(step).collect())
     })
@@ -232,7 +232,7 @@ proptest! {
             let star = exploration.star(travel.star);
             let facing = star.opposite(travel.entry);
             prop_assert!(stay.degrees(6).contains(&star.degree()));
-            let is_it = |other: &Star| Isomorphism::anchored(star, facing, other, Olp(0)).is_some();
+            let is_it = |other: &Star| Isomorphism::anchored(star, facing, other, Olp::new(0)).is_some();
             prop_assert!(stay.stars(star.degree()).is_none_or(|stars| stars.iter().any(is_it)));
         }
     }

@@ -30,14 +30,17 @@ fn main() -> Result<(), Failure> {
     let mut catalog = StarCatalog::new();
     let grid = Grid { rows: 3, columns: 3 };
     let map = grid.map(&mut catalog);
-    write("grid.svg", schematic("3 × 3 grid", &map, Some(PlaceId(4)), letters(9))?)?;
+    write("grid.svg", schematic("3 × 3 grid", &map, Some(PlaceId::new(4)), letters(9))?)?;
     write("grid.dot", map_to_dot(&map, &catalog, &MapOptions::default()))?;
 
     let (tee, six) = ("0+ 1+ 0- (1-)".parse::<Star>()?, "0+ 1+ 2+ 0- 1- 2-".parse::<Star>()?);
-    write("tee.svg", schematic("T-shaped", &tee_map(&mut catalog, &tee), Some(PlaceId(1)), Vec::new())?)?;
+    write(
+        "tee.svg",
+        schematic("T-shaped", &tee_map(&mut catalog, &tee), Some(PlaceId::new(1)), Vec::new())?,
+    )?;
     write(
         "six.svg",
-        schematic("Three local paths", &six_map(&mut catalog, &six), Some(PlaceId(0)), Vec::new())?,
+        schematic("Three local paths", &six_map(&mut catalog, &six), Some(PlaceId::new(0)), Vec::new())?,
     )?;
 
     let mut mapper = Mapper::builder().start(&grid.star((0, 0)))?;
@@ -68,10 +71,10 @@ fn main() -> Result<(), Failure> {
     let mut mapper = Mapper::builder().axioms(axioms).start(&"0+ (1+) (0-) 1-".parse()?)?;
     let corner: Star = "0+ (1+) (0-) 1-".parse()?;
     for _ in 0..3 {
-        mapper.observe(Olp(0), Olp(3), &corner)?;
+        mapper.observe(Olp::new(0), Olp::new(3), &corner)?;
     }
-    mapper.observe(Olp(0), Olp(3), &"0+ (1+) 0- 1-".parse()?)?;
-    mapper.observe(Olp(0), Olp(3), &corner)?;
+    mapper.observe(Olp::new(0), Olp::new(3), &"0+ (1+) 0- 1-".parse()?)?;
+    mapper.observe(Olp::new(0), Olp::new(3), &corner)?;
     mapper.advance();
     let best: Vec<_> = mapper.maps(1).iter().map(|ranked| ranked.node).collect();
     let options = TreeOptions { title: Some("Corners and a T, at most four places".to_owned()), ..options };
@@ -101,9 +104,18 @@ fn main() -> Result<(), Failure> {
     for (places, closures, seed) in [(40, 12, 1), (40, 25, 2), (200, 60, 3), (2, 0, 4), (12, 4, 5)] {
         let (map, _) = random_planar(places, closures, seed);
         let title = format!("Random planar map of {places} places");
-        write(&format!("random{seed}.svg"), schematic(&title, &map, Some(PlaceId(places / 2)), letters(6))?)?;
+        write(
+            &format!("random{seed}.svg"),
+            schematic(&title, &map, Some(PlaceId::new(places / 2)), letters(6))?,
+        )?;
     }
     Ok(())
+}
+
+/// Links an end of one place to an end of another.
+fn link(map: &mut TopologicalMap, (place, end): (PlaceId, u32), (other, far): (PlaceId, u32)) {
+    let pending = |place, end| map.pending(map.olp(place, Olp::new(end))).expect("it is linked once");
+    map.link(pending(place, end), pending(other, far));
 }
 
 /// Three places along a T.
@@ -111,8 +123,8 @@ fn tee_map(catalog: &mut StarCatalog, tee: &Star) -> TopologicalMap {
     let id = catalog.intern(tee);
     let mut map = TopologicalMap::new();
     let places = [0; 3].map(|_| map.add_place(id, tee));
-    map.link(map.olp(places[1], Olp(0)), map.olp(places[0], Olp(2)));
-    map.link(map.olp(places[1], Olp(1)), map.olp(places[2], Olp(1)));
+    link(&mut map, (places[1], 0), (places[0], 2));
+    link(&mut map, (places[1], 1), (places[2], 1));
     map
 }
 
@@ -122,8 +134,8 @@ fn six_map(catalog: &mut StarCatalog, six: &Star) -> TopologicalMap {
     let mut map = TopologicalMap::new();
     let places = [0; 4].map(|_| map.add_place(id, six));
     for (end, place) in [(0, 1), (1, 2), (3, 3)] {
-        map.link(map.olp(places[0], Olp(end)), map.olp(places[place], Olp((end + 3) % 6)));
+        link(&mut map, (places[0], end), (places[place], (end + 3) % 6));
     }
-    map.link(map.olp(places[1], Olp(2)), map.olp(places[2], Olp(5)));
+    link(&mut map, (places[1], 2), (places[2], 5));
     map
 }

@@ -14,7 +14,8 @@
 //! let id = catalog.intern(&crossing);
 //! let mut map = TopologicalMap::new();
 //! let (west, east) = (map.add_place(id, &crossing), map.add_place(id, &crossing));
-//! map.link(map.olp(west, Olp(1)), map.olp(east, Olp(3)));
+//! let pending = |place, end| map.pending(map.olp(place, Olp::new(end))).expect("nothing is linked yet");
+//! map.link(pending(west, 1), pending(east, 3));
 //!
 //! let layout = Layout::schematic(&map, &Bearings::none())?;
 //! let options = MapOptions { current: Some(east), ..MapOptions::default() };

@@ -24,7 +24,7 @@ fn log_normalization(graph: &PoseGraph) -> f64 {
 /// A pose may be anywhere in some area, looking anywhere, with equal probability.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct UniformPrior {
-    log_volume: f64,
+    area: f64,
 }
 
 /// An area that is none.
@@ -39,16 +39,22 @@ impl UniformPrior {
     /// If the area is not positive and finite.
     pub fn over_area(square_metres: f64) -> Result<Self, PriorError> {
         if square_metres > 0.0 && square_metres.is_finite() {
-            Ok(UniformPrior { log_volume: square_metres.ln() + TAU.ln() })
+            Ok(UniformPrior { area: square_metres })
         } else {
             Err(PriorError(square_metres))
         }
     }
 
+    /// The area: m².
+    #[must_use]
+    pub fn area(self) -> f64 {
+        self.area
+    }
+
     /// ln (1/V), V = area × 2π: the log-density of every single pose.
     #[must_use]
     pub fn log_density(self) -> f64 {
-        -self.log_volume
+        -(self.area.ln() + TAU.ln())
     }
 }
 

@@ -1,7 +1,7 @@
 //! A topological map as plain data: places, and links between their ends (section 2.3.1).
 
 use hssh_causal::{Exploration, StarType};
-use hssh_topology::{Star, Travel};
+use hssh_topology::{Passability, Star};
 
 use crate::embedding::RotationSystem;
 use crate::path::Path;
@@ -58,8 +58,8 @@ impl<'a> Map<'a> {
     /// Whether an end is travelable but not linked.
     #[must_use]
     pub fn is_pending(&self, end: End) -> bool {
-        let travel = self.star(end.0).ends()[end.1].travel;
-        travel == Travel::Travelable && self.partner(end).is_none()
+        let passability = self.star(end.0).ends()[end.1].passability;
+        passability == Passability::Travelable && self.partner(end).is_none()
     }
 
     /// The pending gateways by ascending place and end.

@@ -27,7 +27,7 @@ pub(crate) fn isomorphisms(from: &Star, to: &Star) -> Vec<usize> {
     let keeps = |rotation: usize, end: usize| {
         let image = (end + rotation) % degree;
         let (a, b) = (&from.ends()[end], &to.ends()[image]);
-        let same_attribute = a.travel == b.travel && a.label == b.label;
+        let same_attribute = a.passability == b.passability && a.label == b.label;
         same_attribute && (opposite(from, end) + rotation) % degree == opposite(to, image)
     };
     (0..degree).filter(|&rotation| (0..degree).all(|end| keeps(rotation, end))).collect()

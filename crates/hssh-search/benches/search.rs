@@ -2,7 +2,7 @@
 
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
 use hssh_causal::Exploration;
-use hssh_search::{Goal, Mapper, Strategy};
+use hssh_search::{Goal, Mapper, Order};
 use hssh_world::{grid, snake};
 
 /// Nodes of the complete tree without a bound on places.
@@ -40,7 +40,7 @@ fn searches(criterion: &mut Criterion) {
     group.throughput(Throughput::Elements(1));
     group.bench_function("with proof", |bencher| {
         bencher.iter(|| {
-            let builder = Mapper::builder().strategy(Strategy::Proof(Goal::AnyMap));
+            let builder = Mapper::builder().order(Order::Proof).goal(Goal::AnyMap);
             builder.explain(&exploration).expect("the system gives threads").maps(2)
         });
     });

@@ -1,6 +1,8 @@
 //! The branching factor with and without planarity, measured and predicted (equation (3.1)).
 
-use hssh_topology::{Axioms, Derivation, Extension, Hypothesis, Observation, Removals, StarCatalog};
+use hssh_topology::{
+    Axioms, Derivation, Hypothesis, Observation, PendingGateway, Rules, StarCatalog, Step,
+};
 use serde::Serialize;
 
 /// One expansion of a planar map, as equation (3.1) looks at it.
@@ -61,19 +63,20 @@ pub fn branching(
 ) -> Option<BranchingSample> {
     let mut hypothesis = hypothesis.clone();
     let axioms = Axioms { max_genus: None, ..*axioms };
-    let (mut extensions, mut removals) = (Vec::new(), Removals::default());
-    let step = hypothesis.step(observation, catalog, &axioms, &mut extensions, &mut removals);
-    let Derivation::Expand(exit) = step else { return None };
+    let mut step = Step::default();
+    hypothesis.step(observation, Rules { catalog, axioms: &axioms }, &mut step);
     let map = &hypothesis.map;
-    let is_planar = |extension: &Extension| match *extension {
-        Extension::NewPlace => true,
-        Extension::Closure(gateway) => map.share_face(exit, gateway),
+    let exit = map.pending(hypothesis.exit(observation))?;
+    let is_planar = |derivation: &Derivation| match *derivation {
+        Derivation::Predicted | Derivation::NewPlace => true,
+        Derivation::Closure(gateway) => {
+            map.pending(gateway).is_some_and(|gateway| map.share_face(exit, gateway))
+        }
     };
-    let dart = map.dart(exit)?;
-    let in_face = map.graph().pending_edges_of_face(dart).count() as u32;
-    let matching = |gateway| {
-        let place = map.place(gateway);
-        catalog.matches(observation.star, observation.entry, map.star(place), map.local(gateway))
+    let in_face = map.graph().pending_edges_of_face(exit.edge()).count() as u32;
+    let matching = |gateway: PendingGateway| {
+        let (place, olp) = (map.place(gateway.olp()), map.local(gateway.olp()));
+        catalog.matches(observation.star, observation.entry, map.star(place), olp)
     };
     let others = map.pending_gateways().filter(|&gateway| gateway != exit && matching(gateway));
     let (same, different): (Vec<_>, Vec<_>) = others.partition(|&gateway| map.share_face(exit, gateway));
@@ -82,8 +85,8 @@ pub fn branching(
         pending_in_face: in_face,
         faces: map.graph().face_count().max(1),
         matches: map.link_count() + 1 - map.place_count(),
-        successors: extensions.len() as u32,
-        planar_successors: extensions.iter().filter(|extension| is_planar(extension)).count() as u32,
+        successors: step.derivations.len() as u32,
+        planar_successors: step.derivations.iter().filter(|derivation| is_planar(derivation)).count() as u32,
         consistent: (same.len() + different.len()) as u32 + 1,
         consistent_in_face: same.len() as u32 + 1,
     })

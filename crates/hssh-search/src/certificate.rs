@@ -5,7 +5,7 @@
 use std::fmt::Write;
 
 use hssh_causal::Exploration;
-use hssh_topology::{GenusRank, Measure, Outcome};
+use hssh_topology::{GenusRank, Measure};
 
 use crate::builder::{MapperBuilder, Objective};
 use crate::cursor::Cursor;
@@ -195,7 +195,9 @@ fn body(tree: &Tree, entries: &[Entry], best: Option<Score>, more: &str) -> Stri
 
 fn plain(score: Score) -> String {
     match score {
-        Score::Measure(Measure { f1, f2, f3, genus }) => format!("{f1} {f2} {f3} {genus}"),
+        Score::Measure(Measure { undetermined_boundaries, paths, places, genus }) => {
+            format!("{undetermined_boundaries} {paths} {places} {genus}")
+        },
         Score::Nats(nats) => format!("{nats:?}"),
     }
 }

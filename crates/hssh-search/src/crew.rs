@@ -52,7 +52,7 @@ impl Crew {
         &self,
         pieces: &[T],
         experience: &Experience,
-        work: impl Fn(&mut Cursor, &T) -> R + Sync,
+        work: impl Fn(&mut Cursor, &T) -> R + Sync + Send,
     ) -> Vec<R> {
         self.each(pieces.iter().collect(), |piece: &T| {
             let waiting = self.waiting().pop();
@@ -64,7 +64,7 @@ impl Crew {
     }
 
     /// Does each job; the results in the order of the jobs.
-    pub(crate) fn each<J: Send, R: Send>(&self, jobs: Vec<J>, work: impl Fn(J) -> R + Sync) -> Vec<R> {
+    pub(crate) fn each<J: Send, R: Send>(&self, jobs: Vec<J>, work: impl Fn(J) -> R + Sync + Send) -> Vec<R> {
         match &self.pool {
             Some(pool) if jobs.len() > 1 => pool.install(|| jobs.into_par_iter().map(work).collect()),
             _ => jobs.into_iter().map(work).collect(),

@@ -62,7 +62,7 @@ impl Visit {
 #[derive(Clone, PartialEq, Debug, thiserror::Error)]
 pub enum VisitError {
     /// The star has no such end.
-    #[error("the star {star} has no end number {}", .olp.0)]
+    #[error("the star {star} has no end number {olp}")]
     NoSuchEnd {
         /// The star.
         star: Star,
@@ -112,9 +112,10 @@ impl Experience {
             return Err(VisitError::BearingCount { star: star.clone(), bearings: bearings.len() });
         }
         let bearings = complete(star, bearings);
-        let mut known = self.catalog.stars().zip(&self.bearings);
-        let star = match known.position(|(other, measured)| (other, measured) == (star, &bearings)) {
-            Some(known) => StarId(known as u32),
+        let known = self.catalog.stars().zip(&self.bearings);
+        let known = known.into_iter().position(|(other, measured)| (other, measured) == (star, &bearings));
+        let star = match known {
+            Some(known) => StarId::new(known as u32),
             None => {
                 self.bearings.push(bearings);
                 self.catalog.add(star)
@@ -139,7 +140,7 @@ impl Experience {
     /// The star seen on each visit, the start first.
     pub fn seen(&self) -> impl ExactSizeIterator<Item = StarId> + '_ {
         let travels = self.observations.len();
-        (0..=travels).map(|visit| self.star_of(visit))
+        (0..travels + 1).map(|visit| self.star_of(visit))
     }
 
     /// The star seen on a visit, the start being 0.
@@ -169,7 +170,7 @@ impl Experience {
     /// Where the robot is at the root.
     pub(crate) fn root_position(&self) -> Position {
         let phi = Isomorphism::identity(self.catalog.star(self.start));
-        Position { place: hssh_topology::PlaceId(0), phi }
+        Position { place: hssh_topology::PlaceId::new(0), phi }
     }
 }
 
@@ -185,11 +186,11 @@ impl From<&Exploration> for Experience {
         let observe = |travel: &hssh_causal::Travel| Observation {
             exit: travel.exit,
             entry: travel.entry,
-            star: StarId(travel.star.0),
+            star: StarId::new(travel.star.0),
         };
         let observations = exploration.travels().iter().map(observe).collect();
         let odometry = exploration.travels().iter().map(|travel| travel.odometry).collect();
-        Experience { catalog, start: StarId(exploration.start().0), observations, bearings, odometry }
+        Experience { catalog, start: StarId::new(exploration.start().0), observations, bearings, odometry }
     }
 }
 
@@ -199,7 +200,7 @@ fn complete(star: &Star, bearings: &[Option<f64>]) -> Vec<Option<f64>> {
 }
 
 fn usable(star: &Star, olp: Olp) -> Result<(), VisitError> {
-    if olp.0 >= star.degree() {
+    if olp.number() >= star.degree() {
         return Err(VisitError::NoSuchEnd { star: star.clone(), olp });
     }
     if star.is_travelable(olp) {

@@ -32,7 +32,7 @@ impl Frames {
     pub(crate) fn observe(&mut self, experience: &Experience) {
         let stars: Vec<&Star> = experience.catalog.stars().collect();
         for (number, star) in stars.iter().enumerate().skip(self.bearings.len()) {
-            self.bearings.push(bearings(star, experience.bearings(StarId(number as u32))));
+            self.bearings.push(bearings(star, experience.bearings(StarId::new(number as u32))));
         }
         for seen in 0..stars.len() {
             let known = self.turns.get(seen).map_or(0, Vec::len);
@@ -85,7 +85,7 @@ pub(crate) struct Trail {
 impl Trail {
     /// The place of a visit, as a pose of a graph, and the visit's frame in it.
     pub(crate) fn end(&self, visit: usize) -> (PoseId, Pose) {
-        (PoseId(self.visits[visit].place.0), self.frames[visit])
+        (PoseId(self.visits[visit].place.number()), self.frames[visit])
     }
 }
 

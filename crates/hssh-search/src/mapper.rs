@@ -50,12 +50,12 @@ macro_rules! with_engine {
 /// let west: Star = "0+ (0-)".parse()?;
 /// let east: Star = "(0+) 0-".parse()?;
 /// let mut mapper = Mapper::builder().start(&west)?;
-/// mapper.observe(Visit::new(Olp(0), Olp(1), &east))?;
-/// mapper.observe(Visit::new(Olp(1), Olp(0), &west))?;
+/// mapper.observe(Visit::new(Olp::new(0), Olp::new(1), &east))?;
+/// mapper.observe(Visit::new(Olp::new(1), Olp::new(0), &west))?;
 /// mapper.advance();
 /// let maps = mapper.maps(10);
 /// assert_eq!(maps.len(), 1);
-/// assert_eq!((maps[0].measure.f3, maps[0].closed), (2, true));
+/// assert_eq!((maps[0].measure.places, maps[0].closed), (2, true));
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 ///

@@ -137,6 +137,7 @@ impl Measured {
     /// The next travel of a hypothesis, if it leads to a place of the map.
     pub(crate) fn placed_to(&self, trail: &Trail, travel: usize, to: Position) -> PlacedTravel {
         let turn = self.frames.turn(travel + 1, trail.first_seen[to.place.index()], to.phi.rotation());
-        self.travels[travel].between(trail.end(travel), (PoseId(to.place.0), Pose::new(0.0, 0.0, turn)))
+        self.travels[travel]
+            .between(trail.end(travel), (PoseId(to.place.number()), Pose::new(0.0, 0.0, turn)))
     }
 }

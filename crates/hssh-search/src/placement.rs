@@ -60,7 +60,7 @@ pub fn place_by_odometry(
     for _ in &trail.first_seen {
         graph.add_pose(Pose::default());
     }
-    let id = |visit: usize| PoseId(trail.visits[visit].place.0);
+    let id = |visit: usize| PoseId(trail.visits[visit].place.number());
     for (index, travel) in exploration.travels().iter().enumerate().take(visits.len().saturating_sub(1)) {
         let Some(odometry) = &travel.odometry else { continue };
         let measured = MeasuredTravel::of(odometry)

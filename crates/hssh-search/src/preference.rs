@@ -69,7 +69,7 @@ impl Appraise for ByPreference {
             // Of the bound only the number of paths looks ahead.
             let bound = self.preference.measure(leaf.key);
             let paths = Measure::least_paths(leaf.load, leaf.pending, left as u32);
-            leaf.key = self.preference.rank(Measure { f2: paths, ..bound });
+            leaf.key = self.preference.rank(Measure { paths, ..bound });
         }
     }
 

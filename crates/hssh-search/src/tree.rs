@@ -55,7 +55,7 @@ pub(crate) struct Growth {
 }
 
 /// Stands for "no gateway" where a gateway is stored.
-const NO_GATEWAY: MapOlp = MapOlp(u32::MAX);
+const NO_GATEWAY: MapOlp = MapOlp::new(u32::MAX);
 
 impl Growth {
     pub(crate) fn derivation(self) -> Derivation {
@@ -66,7 +66,7 @@ impl Growth {
     pub(crate) fn arrival(self, parent: &TopologicalMap, experience: &Experience) -> MapOlp {
         match self.derivation() {
             Derivation::Closure(gateway) => gateway,
-            _ => MapOlp(parent.olp_count() + experience.observations[self.travel as usize].entry.0),
+            _ => parent.olp_of_next_place(experience.observations[self.travel as usize].entry),
         }
     }
 }

@@ -13,7 +13,7 @@ struct Grid {
 
 impl Grid {
     fn new(side: u32) -> Self {
-        let dart = |row: u32, column: u32, direction: u32| Dart(4 * (row * side + column) + direction);
+        let dart = |row: u32, column: u32, direction: u32| Dart::new(4 * (row * side + column) + direction);
         let cells = || (0..side).flat_map(|row| (0..side).map(move |column| (row, column)));
         let eastward = cells()
             .filter(|&(_, column)| column + 1 < side)
@@ -50,7 +50,11 @@ fn embedding(criterion: &mut Criterion) {
         let mut graph = grid.unlinked();
         group.bench_function("link and unlink", |bencher| {
             bencher.iter(|| {
-                let made: Vec<_> = grid.links.iter().map(|&(a, b)| graph.link(a, b)).collect();
+                let link = |&(a, b): &(Dart, Dart)| {
+                    let pending = |dart| graph.pending(dart).expect("every dart is used once");
+                    graph.link(pending(a), pending(b))
+                };
+                let made: Vec<_> = grid.links.iter().map(link).collect();
                 black_box(graph.genus());
                 made.into_iter().rev().for_each(|link| graph.unlink(link));
             });

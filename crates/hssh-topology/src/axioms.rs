@@ -4,7 +4,8 @@ use std::fmt;
 
 use serde::{Deserialize, Serialize};
 
-use crate::map::{MapOlp, PathId, TopologicalMap};
+use crate::ids::PathId;
+use crate::map::{PendingGateway, TopologicalMap};
 
 /// Which axioms are enforced. The default are those of every published table: no path meets a place
 /// twice, and no path is circular.
@@ -160,8 +161,13 @@ impl Axioms {
     /// The first axiom, except that on boundaries, that linking two pending gateways would violate.
     /// The map satisfies them all so far.
     #[must_use]
-    pub(crate) fn violated_by_closure(&self, map: &TopologicalMap, a: MapOlp, b: MapOlp) -> Option<Axiom> {
-        let (path, other) = (map.path(a), map.path(b));
+    pub(crate) fn violated_by_closure(
+        &self,
+        map: &TopologicalMap,
+        a: PendingGateway,
+        b: PendingGateway,
+    ) -> Option<Axiom> {
+        let (path, other) = (map.path(a.olp()), map.path(b.olp()));
         if path == other {
             if self.no_circular_path {
                 return Some(Axiom::NoCircularPath);

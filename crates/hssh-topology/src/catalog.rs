@@ -2,22 +2,8 @@
 
 use std::collections::BTreeMap;
 
-use serde::{Deserialize, Serialize};
-
-use crate::star::{Olp, Star, Travel};
-
-/// A star of a [`StarCatalog`].
-#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug, Default, Serialize, Deserialize)]
-#[serde(transparent)]
-pub struct StarId(pub u32);
-
-impl StarId {
-    /// The star as an index.
-    #[must_use]
-    pub fn index(self) -> usize {
-        self.0 as usize
-    }
-}
+use crate::ids::{Olp, StarId};
+use crate::star::{Passability, Star};
 
 /// All stars met so far, sorted into classes of isomorphic ones: a match is one look-up.
 #[derive(Clone, Debug, Default)]
@@ -34,12 +20,12 @@ struct Entry {
     star: Star,
     class: u32,
     /// The oriented local path at which the signature of the class begins.
-    start: u32,
+    start: Olp,
 }
 
 /// What isomorphisms look at, clockwise: the attribute of each end, and how far it is to the opposite
 /// end. Of all the ends to begin at, the one that gives the least sequence.
-type Signature = Vec<(Travel, Option<String>, u32)>;
+type Signature = Vec<(Passability, Option<String>, u32)>;
 
 impl StarCatalog {
     /// A catalog without stars.
@@ -60,7 +46,7 @@ impl StarCatalog {
             self.automorphisms.push(automorphisms.collect());
         }
         let class = *self.classes.entry(signature).or_insert(next_class);
-        let id = StarId(self.entries.len() as u32);
+        let id = StarId::new(self.entries.len() as u32);
         self.entries.push(Entry { star: star.clone(), class, start });
         self.numbers.entry(star.clone()).or_insert(id);
         id
@@ -92,22 +78,23 @@ impl StarCatalog {
         let (from, to) = (&self.entries[from.index()], &self.entries[to.index()]);
         let automorphisms = &self.automorphisms[from.class as usize];
         let degree = automorphisms.len() as u32;
-        let minus = |a: u32, b: u32| if a >= b { a - b } else { a + degree - b };
+        let from_start = |olp: Olp, start: Olp| Olp::new(start.turn_to(olp, degree));
         from.class == to.class
-            && automorphisms[minus(minus(image.0, to.start), minus(olp.0, from.start)) as usize]
+            && automorphisms
+                [from_start(olp, from.start).turn_to(from_start(image, to.start), degree) as usize]
     }
 }
 
 /// The signature of a star, and the end it begins at.
-fn signature(star: &Star) -> (Signature, u32) {
+fn signature(star: &Star) -> (Signature, Olp) {
     let degree = star.degree();
     let look = |olp: Olp| {
         let end = &star.ends()[olp.index()];
-        (end.travel, end.label.clone(), (star.opposite(olp).0 + degree - olp.0) % degree)
+        (end.passability, end.label.clone(), olp.turn_to(star.opposite(olp), degree))
     };
     let ends: Signature = star.olps().map(look).collect();
-    let turned = |start: u32| ends.iter().cycle().skip(start as usize).take(ends.len());
-    let start = (0..degree).min_by(|&a, &b| turned(a).cmp(turned(b))).unwrap_or(0);
+    let turned = |start: Olp| ends.iter().cycle().skip(start.index()).take(ends.len());
+    let start = star.olps().min_by(|&a, &b| turned(a).cmp(turned(b))).expect("no star is empty");
     (turned(start).cloned().collect(), start)
 }
 

@@ -6,10 +6,10 @@ use std::str::FromStr;
 use serde::{Deserialize, Serialize};
 
 use crate::axioms::{Axioms, Removals};
-use crate::catalog::{StarCatalog, StarId};
+use crate::catalog::StarCatalog;
+use crate::ids::{MapOlp, Olp, PlaceId, StarId};
 use crate::isomorphism::Isomorphism;
-use crate::map::{MapOlp, PlaceId, TopologicalMap};
-use crate::star::Olp;
+use crate::map::TopologicalMap;
 
 /// What one travel shows: the robot left by `exit` of the star it saw last, and came by `entry` into
 /// a place with the star `star`.
@@ -62,7 +62,7 @@ impl fmt::Display for Derivation {
         match self {
             Derivation::Predicted => f.pad("p"),
             Derivation::NewPlace => f.pad("n"),
-            Derivation::Closure(gateway) => write!(f, "c{}", gateway.0),
+            Derivation::Closure(gateway) => write!(f, "c{gateway}"),
         }
     }
 }
@@ -79,7 +79,7 @@ impl FromStr for Derivation {
         match (text, text.strip_prefix('c').map(str::parse)) {
             ("p", _) => Ok(Derivation::Predicted),
             ("n", _) => Ok(Derivation::NewPlace),
-            (_, Some(Ok(gateway))) => Ok(Derivation::Closure(MapOlp(gateway))),
+            (_, Some(Ok(gateway))) => Ok(Derivation::Closure(MapOlp::new(gateway))),
             _ => Err(DerivationError(text.chars().take(20).collect())),
         }
     }
@@ -161,15 +161,16 @@ impl Hypothesis {
         }
 
         *outcome = Outcome::Expanded;
+        let exit = self.map.pending(exit).expect("the robot leaves by gateways, and this one is not linked");
         match axioms.violated_by_new_place(&self.map) {
             Some(axiom) => removals.record(axiom),
             None => derivations.push(Derivation::NewPlace),
         }
         for other in self.map.pending_gateways() {
-            if other != exit && self.looks_like(star, entry, other, catalog) {
+            if other != exit && self.looks_like(star, entry, other.olp(), catalog) {
                 match axioms.violated_by_closure(&self.map, exit, other) {
                     Some(axiom) => removals.record(axiom),
-                    None => derivations.push(Derivation::Closure(other)),
+                    None => derivations.push(Derivation::Closure(other.olp())),
                 }
             }
         }
@@ -197,7 +198,7 @@ impl Hypothesis {
     pub fn arrival(&self, observation: Observation, derivation: Derivation) -> MapOlp {
         match derivation {
             Derivation::Closure(gateway) => gateway,
-            Derivation::NewPlace => MapOlp(self.map.olp_count() + observation.entry.0),
+            Derivation::NewPlace => self.map.olp_of_next_place(observation.entry),
             Derivation::Predicted => {
                 self.map.linked(self.exit(observation)).expect("a travel that is predicted follows a link")
             }
@@ -245,7 +246,8 @@ impl Hypothesis {
         if derivation == Derivation::NewPlace {
             self.map.add_place(star, catalog.star(star));
         }
-        self.map.link(exit, arrival);
+        let pending = |olp| self.map.pending(olp).expect("only what is pending is linked");
+        self.map.link(pending(exit), pending(arrival));
     }
 
     /// Takes back the last [`grow`](Self::grow) of that kind.

@@ -2,7 +2,8 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::star::{Olp, Star};
+use crate::ids::Olp;
+use crate::star::Star;
 
 /// A bijection φ: S → S' that keeps the clockwise order, the attributes and the local paths.
 ///
@@ -33,7 +34,7 @@ impl Isomorphism {
         let phi = Isomorphism::rotating(olp, image, degree);
         let keeps = |x: Olp| {
             let (end, image) = (&from.ends()[x.index()], &to.ends()[phi.apply(x).index()]);
-            (end.travel, &end.label) == (image.travel, &image.label) // (ii)
+            (end.passability, &end.label) == (image.passability, &image.label) // (ii)
                 && phi.apply(from.opposite(x)) == to.opposite(phi.apply(x)) // (iii)
         };
         from.olps().all(keeps).then_some(phi)
@@ -41,18 +42,18 @@ impl Isomorphism {
 
     /// The rotation that takes `olp` to `image`, known from elsewhere to be an isomorphism.
     pub(crate) fn rotating(olp: Olp, image: Olp, degree: u32) -> Self {
-        Isomorphism { rotation: (image.0 + degree - olp.0) % degree, degree }
+        Isomorphism { rotation: olp.turn_to(image, degree), degree }
     }
 
     /// All isomorphisms from one star to another, by the image of the first oriented local path.
     pub fn all<'a>(from: &'a Star, to: &'a Star) -> impl Iterator<Item = Isomorphism> + 'a {
-        to.olps().filter_map(|image| Isomorphism::anchored(from, Olp(0), to, image))
+        to.olps().filter_map(|image| Isomorphism::anchored(from, Olp::new(0), to, image))
     }
 
     /// φ(olp).
     #[must_use]
     pub fn apply(self, olp: Olp) -> Olp {
-        Olp((olp.0 + self.rotation) % self.degree)
+        olp.turned(self.rotation, self.degree)
     }
 
     /// φ⁻¹: S' → S.

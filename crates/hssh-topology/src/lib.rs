@@ -8,6 +8,7 @@ mod axioms;
 mod catalog;
 mod embedding;
 mod hypothesis;
+mod ids;
 mod isomorphism;
 mod map;
 mod preference;
@@ -16,19 +17,18 @@ mod simplicity;
 mod star;
 
 pub use axioms::{Axiom, Axioms, Removals};
-pub use catalog::{StarCatalog, StarId};
-pub use embedding::{Dart, EmbeddedGraph, EmbeddingError, FaceLabel, Faces, Link, Vertex};
+pub use catalog::StarCatalog;
+pub use embedding::{EmbeddedGraph, EmbeddingError, Faces, Link, PendingEdge};
 pub use hypothesis::{
     Derivation, DerivationError, Footprint, Hypothesis, Observation, Outcome, Position, Rules, Step,
 };
+pub use ids::{Dart, FaceLabel, MapOlp, Olp, PathId, PlaceId, StarId, Vertex};
 pub use isomorphism::Isomorphism;
-pub use map::{
-    BoundaryRelation, Course, Direction, MapOlp, PathId, PathSides, PlaceId, Region, TopologicalMap,
-};
+pub use map::{BoundaryRelation, Course, Direction, PathSides, PendingGateway, Region, TopologicalMap};
 pub use preference::{GenusRank, Measure, Preference, Rank};
 pub use replay::{
     Contradiction, Discovery, End, Malformed, MapSketch, Replay, ReplayedTravel, TracedPath, Violation,
     replay, violations,
 };
 pub use simplicity::{Simplicity, SimplicityError, SimplicityFloor};
-pub use star::{Olp, OlpName, Sign, Star, StarEnd, StarError, Travel};
+pub use star::{OlpName, Passability, Sign, Star, StarEnd, StarError};

@@ -5,21 +5,7 @@ use std::str::FromStr;
 
 use serde::{Deserialize, Serialize};
 
-/// An oriented local path *of one star*: its position in the clockwise order, counted from 0.
-///
-/// It means nothing without the star it indexes. Names such as `1+` belong to the star
-/// ([`Star::name`], [`Star::find`]).
-#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug, Serialize, Deserialize)]
-#[serde(transparent)]
-pub struct Olp(pub u32);
-
-impl Olp {
-    /// The position as an index into [`Star::ends`].
-    #[must_use]
-    pub fn index(self) -> usize {
-        self.0 as usize
-    }
-}
+use crate::ids::Olp;
 
 /// One of the two directions of a local path, told apart by an arbitrary sign.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug, Serialize, Deserialize)]
@@ -80,7 +66,7 @@ impl FromStr for OlpName {
 
 /// Whether a path goes on outside the place: the basic attribute domain {T, C}.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug, Serialize, Deserialize)]
-pub enum Travel {
+pub enum Passability {
     /// `T`: the path continues; the oriented local path is a gateway.
     Travelable,
     /// `C`: the path ends at this place.
@@ -93,7 +79,7 @@ pub struct StarEnd {
     /// The name, used by people only: no isomorphism looks at it.
     pub name: OlpName,
     /// Travelable or closed.
-    pub travel: Travel,
+    pub passability: Passability,
     /// A richer attribute: a control law, an appearance. Isomorphisms preserve it.
     pub label: Option<String>,
 }
@@ -142,7 +128,7 @@ impl Star {
         }
         let mut position = std::collections::BTreeMap::new();
         for (index, end) in ends.iter().enumerate() {
-            if position.insert(end.name, Olp(index as u32)).is_some() {
+            if position.insert(end.name, Olp::new(index as u32)).is_some() {
                 return Err(StarError::Repeated(end.name));
             }
         }
@@ -167,7 +153,7 @@ impl Star {
 
     /// All oriented local paths, clockwise.
     pub fn olps(&self) -> impl ExactSizeIterator<Item = Olp> + use<> {
-        (0..self.degree()).map(Olp)
+        (0..self.degree()).map(Olp::new)
     }
 
     /// The oriented local paths that can be travelled, clockwise.
@@ -178,7 +164,7 @@ impl Star {
     /// The clockwise neighbour, `next` of Definition 2.1.
     #[must_use]
     pub fn next(&self, olp: Olp) -> Olp {
-        Olp((olp.0 + 1) % self.degree())
+        olp.turned(1, self.degree())
     }
 
     /// The other direction of the same local path.
@@ -190,7 +176,7 @@ impl Star {
     /// Whether the path goes on in this direction: whether the oriented local path is a gateway.
     #[must_use]
     pub fn is_travelable(&self, olp: Olp) -> bool {
-        self.ends[olp.index()].travel == Travel::Travelable
+        self.ends[olp.index()].passability == Passability::Travelable
     }
 
     /// The name of an oriented local path.
@@ -209,9 +195,8 @@ impl Star {
     /// before the opposite of `olp` in clockwise order (section 2.3.3).
     #[must_use]
     pub fn is_right_of(&self, olp: Olp, other: Olp) -> bool {
-        let clockwise = |to: Olp| (to.0 + self.degree() - olp.0) % self.degree();
-        let offset = clockwise(other);
-        0 < offset && offset < clockwise(self.opposite(olp))
+        let offset = olp.turn_to(other, self.degree());
+        0 < offset && offset < olp.turn_to(self.opposite(olp), self.degree())
     }
 }
 
@@ -221,11 +206,11 @@ impl fmt::Display for Star {
         write!(f, "[")?;
         for (index, end) in self.ends.iter().enumerate() {
             let separator = if index == 0 { "" } else { ", " };
-            let travel = match end.travel {
-                Travel::Travelable => 'T',
-                Travel::Closed => 'C',
+            let passability = match end.passability {
+                Passability::Travelable => 'T',
+                Passability::Closed => 'C',
             };
-            write!(f, "{separator}<{},{travel}", end.name)?;
+            write!(f, "{separator}<{},{passability}", end.name)?;
             if let Some(label) = &end.label {
                 write!(f, ",{label}")?;
             }
@@ -247,15 +232,15 @@ impl FromStr for Star {
 }
 
 fn parse_end(text: &str) -> Result<StarEnd, StarError> {
-    let (inner, travel) = match text.strip_prefix('(').and_then(|rest| rest.strip_suffix(')')) {
-        Some(inner) => (inner, Travel::Closed),
-        None => (text, Travel::Travelable),
+    let (inner, passability) = match text.strip_prefix('(').and_then(|rest| rest.strip_suffix(')')) {
+        Some(inner) => (inner, Passability::Closed),
+        None => (text, Passability::Travelable),
     };
     let (name, label) = match inner.split_once(':') {
         Some((name, label)) => (name, Some(label.to_owned())),
         None => (inner, None),
     };
-    Ok(StarEnd { name: name.parse()?, travel, label })
+    Ok(StarEnd { name: name.parse()?, passability, label })
 }
 
 #[cfg(test)]
@@ -267,7 +252,7 @@ mod tests {
         let tee: Star = "0+ (1+) 0- 1-".parse().unwrap();
         assert_eq!(tee.to_string(), "[<0+,T>, <1+,C>, <0-,T>, <1-,T>]");
         assert_eq!(tee.gateways().count(), 3);
-        assert_eq!(tee.opposite(Olp(1)), Olp(3));
+        assert_eq!(tee.opposite(Olp::new(1)), Olp::new(3));
     }
 
     #[test]

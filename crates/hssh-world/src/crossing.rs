@@ -2,7 +2,7 @@
 
 use std::f64::consts::{FRAC_PI_2, FRAC_PI_4, PI, TAU};
 
-use hssh_topology::{Olp, OlpName, Sign, Star, StarEnd, Travel};
+use hssh_topology::{Olp, OlpName, Passability, Sign, Star, StarEnd};
 
 use crate::geometry::wrap;
 
@@ -53,7 +53,7 @@ pub(crate) fn star_of_crossing(streets: &[f64]) -> Option<CrossingStar> {
     ends.sort_by(|a, b| clockwise_from_north(a.bearing).total_cmp(&clockwise_from_north(b.bearing)));
 
     let mut numbers: Vec<usize> = Vec::new(); // local paths in the order of their first ends
-    let mut olps = vec![Olp(0); streets.len()];
+    let mut olps = vec![Olp::new(0); streets.len()];
     let mut star_ends = Vec::new();
     for (position, end) in ends.iter().enumerate() {
         let met = numbers.iter().position(|&path| path == end.path);
@@ -62,10 +62,10 @@ pub(crate) fn star_of_crossing(streets: &[f64]) -> Option<CrossingStar> {
             numbers.push(end.path);
         }
         let sign = if met.is_none() { Sign::Plus } else { Sign::Minus };
-        let travel = if end.street.is_some() { Travel::Travelable } else { Travel::Closed };
-        star_ends.push(StarEnd { name: OlpName { local_path, sign }, travel, label: None });
+        let passability = if end.street.is_some() { Passability::Travelable } else { Passability::Closed };
+        star_ends.push(StarEnd { name: OlpName { local_path, sign }, passability, label: None });
         if let Some(street) = end.street {
-            olps[street] = Olp(position as u32);
+            olps[street] = Olp::new(position as u32);
         }
     }
     let star = Star::new(star_ends).ok()?; // fails only if there are no streets

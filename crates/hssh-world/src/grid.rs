@@ -2,16 +2,16 @@
 
 use std::f64::consts::{FRAC_PI_2, PI};
 
-use hssh_topology::{Olp, OlpName, Sign, Star, StarEnd, Travel};
+use hssh_topology::{Olp, OlpName, Passability, Sign, Star, StarEnd};
 
 use crate::geometry::Point;
 use crate::world::{Gateway, Link, Place, PlaceId, World, WorldError};
 
 /// Ends of a grid place in clockwise order, as positions in its star.
-const NORTH: Olp = Olp(0);
-const EAST: Olp = Olp(1);
-const SOUTH: Olp = Olp(2);
-const WEST: Olp = Olp(3);
+const NORTH: Olp = Olp::new(0);
+const EAST: Olp = Olp::new(1);
+const SOUTH: Olp = Olp::new(2);
+const WEST: Olp = Olp::new(3);
 
 /// A grid of `rows` × `columns` places, `spacing` metres apart.
 ///
@@ -59,7 +59,7 @@ fn star(open: [bool; 4]) -> Star {
             local_path: position as u32 % 2,
             sign: if position < 2 { Sign::Plus } else { Sign::Minus },
         },
-        travel: if open { Travel::Travelable } else { Travel::Closed },
+        passability: if open { Passability::Travelable } else { Passability::Closed },
         label: None,
     });
     Star::new(ends).expect("0+ 1+ 0- 1- is a star")

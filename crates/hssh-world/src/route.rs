@@ -117,8 +117,8 @@ impl World {
             let entry = self.neighbor(exit).ok_or_else(|| RouteError::NoGateway {
                 travel: index + 1,
                 from: place.0,
-                exit: olp.0,
-                gateways: list(self.gateways_of(place).map(|gateway| gateway.olp.0)),
+                exit: olp.number(),
+                gateways: list(self.gateways_of(place).map(|gateway| gateway.olp.number())),
             })?;
             crossings.push((exit, entry));
             place = entry.place;
@@ -142,7 +142,7 @@ impl World {
                 travel,
                 from: from.0,
                 to: to.0,
-                exits: list(exits.iter().map(|exit| exit.0)),
+                exits: list(exits.iter().map(|exit| exit.number())),
             }),
         }
     }
@@ -176,7 +176,7 @@ mod tests {
         assert_eq!(through(&[]), "the route names no place to start from");
         assert_eq!(through(&[0, 1, 9]), "place 9 does not exist: the world has 4");
         assert_eq!(through(&[0, 1, 2]), "travel 2: no link leads from place 1 to place 2, only to 3, 0");
-        let by_exits = Route { start: PlaceId(0), exits: vec![Olp(1), Olp(0)] };
+        let by_exits = Route { start: PlaceId(0), exits: vec![Olp::new(1), Olp::new(0)] };
         assert_eq!(
             world.explore(&by_exits).unwrap_err().to_string(),
             "travel 2: end 0 of place 1 is no gateway; gateways are 2, 3"

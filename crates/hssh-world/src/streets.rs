@@ -143,7 +143,7 @@ impl StreetNetwork {
         let position = |end: usize| match self.crossings.get(end) {
             Some(crossing) => Ok(crossing.position),
             None => {
-                let gateway = Gateway { place: PlaceId(end as u32), olp: hssh_topology::Olp(0) };
+                let gateway = Gateway { place: PlaceId(end as u32), olp: hssh_topology::Olp::new(0) };
                 Err(WorldError::NoGateway { link: index, gateway })
             }
         };
@@ -183,7 +183,7 @@ impl StreetNetwork {
 
 /// A street's link before its stars are known; every end is set before the world is made.
 fn unlinked(street: &Street) -> Link {
-    let ends = street.ends.map(|end| Gateway { place: PlaceId(end as u32), olp: hssh_topology::Olp(0) });
+    let ends = street.ends.map(|end| Gateway { place: PlaceId(end as u32), olp: hssh_topology::Olp::new(0) });
     Link { ends, bends: street.bends.clone() }
 }
 

@@ -140,7 +140,7 @@ pub enum WorldError {
 
 impl fmt::Display for Gateway {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "{}:{}", self.place.0, self.olp.0)
+        write!(f, "{}:{}", self.place.0, self.olp)
     }
 }
 
@@ -287,7 +287,7 @@ fn is_clockwise(bearings: &[f64]) -> bool {
 }
 
 fn has_gateway(place: &Place, olp: Olp) -> bool {
-    olp.0 < place.star.degree() && place.star.is_travelable(olp)
+    olp.number() < place.star.degree() && place.star.is_travelable(olp)
 }
 
 #[cfg(test)]
@@ -302,7 +302,7 @@ mod tests {
     }
 
     fn link(from: (u32, u32), to: (u32, u32)) -> Link {
-        let gateway = |(place, olp)| Gateway { place: PlaceId(place), olp: Olp(olp) };
+        let gateway = |(place, olp)| Gateway { place: PlaceId(place), olp: Olp::new(olp) };
         Link { ends: [gateway(from), gateway(to)], bends: Vec::new() }
     }
 

@@ -23,7 +23,7 @@ fn from_a_floor_to_its_map() {
     let mapped = hssh(&["map", &exploration, "--json"]);
     let mapped: serde_json::Value = serde_json::from_slice(&mapped.stdout).expect("the report is JSON");
     let best = &mapped["ranking"][0];
-    assert!(best["f3"] == 4 && best["closed"] == true, "{mapped}");
+    assert!(best["places"] == 4 && best["closed"] == true, "{mapped}");
     let _ = std::fs::remove_dir_all(folder);
 }
 

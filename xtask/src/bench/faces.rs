@@ -53,7 +53,7 @@ impl Grid {
 
     fn dart(&self, from: u32, to: u32) -> Dart {
         let before = self.neighbors(from).take_while(|&neighbor| neighbor != to).count() as u32;
-        Dart(self.first[from as usize] + before)
+        Dart::new(self.first[from as usize] + before)
     }
 
     /// All edges, each once, row by row.
@@ -103,7 +103,8 @@ pub(crate) fn run(runs: usize) -> Result<(), Box<dyn Error>> {
             for &degree in &degrees {
                 graph.add_vertex(degree);
             }
-            links.iter().map(|&(a, b)| graph.link(a, b)).collect::<Vec<_>>()
+            let link = |&(a, b): &(Dart, Dart)| Some(graph.link(graph.pending(a)?, graph.pending(b)?));
+            links.iter().filter_map(link).collect::<Vec<_>>()
         });
         grow.push(seconds);
         if (graph.face_count(), graph.genus()) != (faces, genus) {

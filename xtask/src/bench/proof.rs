@@ -81,7 +81,9 @@ fn row(case: &Case, limit: Duration) -> Result<Vec<String>, Box<dyn Error>> {
     let report =
         Mapper::builder().axioms(axioms).strategy(proof).limits(limits).explain(&exploration)?.report();
     let show = |measure: Option<hssh_topology::Measure>| {
-        measure.map_or("none".to_owned(), |m| format!("({}, {}, {})", m.f1, m.f2, m.f3))
+        measure.map_or("none".to_owned(), |m| {
+            format!("({}, {}, {})", m.undetermined_boundaries, m.paths, m.places)
+        })
     };
     let certificate = report.certificate.ok_or("a search with proof has a certificate")?;
     let optimal = if certificate.proved { grouped(report.finals.optimal) } else { report.stop.to_string() };

@@ -2,7 +2,6 @@
 
 use hssh_causal::schema::Action::{self, Travel, TurnAround};
 use hssh_causal::schema::{Sight, Trace, Turning};
-use hssh_topology::Olp;
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 
@@ -116,7 +115,7 @@ fn the_truth_is_among_them() {
             let (corner, facing) = truth[truth.len() - 1];
             let star = exploration.star(exploration.visits().nth(visit).unwrap());
             truth.push(match step.action {
-                Action::Turn { clockwise } => (corner, Olp((facing.0 + clockwise) % star.degree())),
+                Action::Turn { clockwise } => (corner, facing.turned(clockwise, star.degree())),
                 TurnAround => (corner, star.opposite(facing)),
                 Travel => {
                     visit += 1;

@@ -131,7 +131,11 @@ fn cells(run: &Run, report: &Report, true_map: Option<Verdict>) -> Vec<Cell> {
         measured.push(("expanded", grouped(report.expanded)));
     }
     measured.push(("optimal", grouped(finals.optimal)));
-    measured.extend(finals.best.map(|best| ("best (f1, f2, f3)", triple(best.f1, best.f2, best.f3))));
+    measured.extend(
+        finals
+            .best
+            .map(|best| ("best (f1, f2, f3)", triple(best.undetermined_boundaries, best.paths, best.places))),
+    );
     measured.extend(true_map.map(|verdict| (TRUE_MAP, verdict.to_string())));
     measured.push(("search", ending(report.stop).to_owned()));
     let levels: Vec<u64> = report.levels.iter().map(|level| level.nodes).collect();
@@ -169,7 +173,10 @@ fn values(expected: &Expected) -> Vec<(&'static str, String)> {
     ];
     let counts = counts.into_iter().filter_map(|(name, count)| Some((name, grouped(count?))));
     let texts = [
-        ("best (f1, f2, f3)", expected.best.map(|(f1, f2, f3)| triple(f1, f2, f3))),
+        (
+            "best (f1, f2, f3)",
+            expected.best.map(|(boundaries, paths, places)| triple(boundaries, paths, places)),
+        ),
         (TRUE_MAP, expected.true_map.map(|verdict| verdict.to_string())),
         ("search", expected.stop.map(|stop| ending(stop).to_owned())),
         (LEVELS, expected.levels.as_deref().map(spaced)),
@@ -192,8 +199,8 @@ fn ending(stop: StopReason) -> &'static str {
     }
 }
 
-fn triple(f1: u64, f2: u32, f3: u32) -> String {
-    format!("({f1}, {f2}, {f3})")
+fn triple(undetermined_boundaries: u64, paths: u32, places: u32) -> String {
+    format!("({undetermined_boundaries}, {paths}, {places})")
 }
 
 fn spaced(levels: &[u64]) -> String {

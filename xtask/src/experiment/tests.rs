@@ -87,7 +87,7 @@ fn oracle_agrees(exploration: &Exploration, axioms: &Axioms, outcome: &Outcome) 
     assert_eq!(kinds, independent.map(|count| count as u64), "{}", outcome.name);
     let (best, optimal) = naive.optimum().unwrap();
     let measure = report.finals.best.unwrap();
-    assert_eq!((measure.f1, measure.f2, measure.f3), {
+    assert_eq!((measure.undetermined_boundaries, measure.paths, measure.places), {
         (best.unrelated as u64, best.paths as u32, best.places as u32)
     });
     assert_eq!(report.finals.optimal, optimal as u64, "{}", outcome.name);
@@ -119,7 +119,7 @@ fn every_search_finds_the_same_optima() {
             let complete = complete.report.unwrap().finals;
             let values = |finals: &hssh_search::FinalCounts| {
                 let best = finals.best.unwrap();
-                (best.f1, best.f2, best.f3, finals.optimal)
+                (best.undetermined_boundaries, best.paths, best.places, finals.optimal)
             };
             assert_eq!(values(&proved), values(&complete), "{}", run.name);
         }

@@ -1,6 +1,6 @@
 //! One end of a star in one string: `"1+ closed @90 #office"`.
 
-use hssh_topology::{OlpName, StarEnd, Travel};
+use hssh_topology::{OlpName, Passability, StarEnd};
 
 use super::error::{Fault, Span};
 use super::suggest::nearest;
@@ -15,24 +15,24 @@ pub(super) fn parse_end(text: &str, span: Span) -> Result<(StarEnd, Option<f64>)
     };
     let mut words = description.split_whitespace();
     let name = parse_name(words.next().unwrap_or(""), span)?;
-    let mut travel = Travel::Travelable;
+    let mut passability = Passability::Travelable;
     let mut bearing = None;
     for word in words {
-        if word == "closed" && travel == Travel::Travelable {
-            travel = Travel::Closed;
+        if word == "closed" && passability == Passability::Travelable {
+            passability = Passability::Closed;
         } else if let Some(angle) = word.strip_prefix('@').filter(|_| bearing.is_none()) {
             bearing = Some(parse_bearing(angle, span)?);
         } else {
             return Err(unknown_word(word, span));
         }
     }
-    Ok((StarEnd { name, travel, label }, bearing))
+    Ok((StarEnd { name, passability, label }, bearing))
 }
 
 /// The string that [`parse_end`] reads as this end with this bearing.
 pub(super) fn write_end(end: &StarEnd, bearing: Option<f64>) -> String {
     let mut text = end.name.to_string();
-    if end.travel == Travel::Closed {
+    if end.passability == Passability::Closed {
         text.push_str(" closed");
     }
     if let Some(radians) = bearing {
@@ -171,7 +171,7 @@ mod tests {
     fn every_part_is_read() {
         let (end, bearing) = parse_end("12- @-30 closed # the office # 3", SPAN).unwrap();
         assert_eq!(end.name.to_string(), "12-");
-        assert_eq!(end.travel, Travel::Closed);
+        assert_eq!(end.passability, Passability::Closed);
         assert_eq!(end.label.as_deref(), Some("the office # 3"));
         assert_eq!(bearing, Some((-30.0_f64).to_radians()));
         assert_eq!(write_end(&end, bearing), "12- closed @-30 #the office # 3");

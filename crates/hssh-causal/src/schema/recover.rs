@@ -52,20 +52,20 @@ pub fn exploration(trace: &Trace) -> Result<Exploration, RecoverError> {
         }) as u32)
     };
     let mut here = star_at(trace, 0)?;
-    let mut facing = Olp(0);
+    let mut facing = Olp::new(0);
     let start = type_of(here);
     let mut travels = Vec::new();
     for (schema, step) in trace.steps().iter().enumerate() {
         let after = star_at(trace, schema + 1)?;
         if step.action.is_travel() {
             // The robot looks the way it came in.
-            let entry = after.opposite(Olp(0));
+            let entry = after.opposite(Olp::new(0));
             travels.push(Travel { exit: facing, entry, star: type_of(after), odometry: None });
-            (here, facing) = (after, Olp(0));
+            (here, facing) = (after, Olp::new(0));
             continue;
         }
         facing = match step.action {
-            Action::Turn { clockwise } => Olp((facing.0 + clockwise) % here.degree()),
+            Action::Turn { clockwise } => facing.turned(clockwise, here.degree()),
             _ => here.opposite(facing),
         };
         let expected = View::of(here, facing, super::Sight::Place);

@@ -89,9 +89,9 @@ fn star(circle: &[&View], pairs: &[(usize, usize)]) -> Star {
     let mut ends: Vec<Option<StarEnd>> = vec![None; circle.len()];
     for (local_path, &(one, other)) in pairs.iter().enumerate() {
         for (position, sign) in [(one, Sign::Plus), (other, Sign::Minus)] {
-            let (travel, label) = circle[position].ahead();
+            let (passability, label) = circle[position].ahead();
             let name = OlpName { local_path: local_path as u32, sign };
-            ends[position] = Some(StarEnd { name, travel, label });
+            ends[position] = Some(StarEnd { name, passability, label });
         }
     }
     Star::new(ends.into_iter().flatten()).expect("every end of a pairing has its opposite")

@@ -164,7 +164,7 @@ impl<'a> Robot<'a> {
 
     fn face(&mut self, exit: Olp, turning: Turning) {
         let degree = self.star().degree();
-        let clockwise = (exit.0 + degree - self.facing.0) % degree;
+        let clockwise = self.facing.turn_to(exit, degree);
         match turning {
             _ if clockwise == 0 => {} // straight on: no action at all
             _ if exit == self.star().opposite(self.facing) => self.turn_around(),
@@ -174,7 +174,7 @@ impl<'a> Robot<'a> {
     }
 
     fn turn(&mut self, clockwise: u32) {
-        let facing = Olp((self.facing.0 + clockwise) % self.star().degree());
+        let facing = self.facing.turned(clockwise, self.star().degree());
         let angle = self.angle_to(facing).map(|angle| angle.rem_euclid(TAU) - TAU);
         self.end_up(facing, Action::Turn { clockwise }, Change { rotation: angle, ..Change::default() });
     }

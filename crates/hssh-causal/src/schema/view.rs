@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-use hssh_topology::{Olp, OlpName, Sign, Star, StarEnd, Travel};
+use hssh_topology::{Olp, OlpName, Passability, Sign, Star, StarEnd};
 
 /// How much of a place one view takes in.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
@@ -21,12 +21,12 @@ pub enum Sight {
 /// numbers in the order of sight.
 #[derive(Clone, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
 pub enum View {
-    /// The star, clockwise from the faced oriented local path, which is `Olp(0)` and named `0+`.
+    /// The star, clockwise from the faced oriented local path, which is `Olp::new(0)` and named `0+`.
     Place(Star),
     /// What is ahead.
     Ahead {
         /// Whether the path goes on.
-        travel: Travel,
+        passability: Passability,
         /// Its richer attribute.
         label: Option<String>,
     },
@@ -42,18 +42,18 @@ impl View {
         match sight {
             Sight::Place => View::Place(seen_from(star, facing)),
             Sight::Ahead => {
-                let StarEnd { travel, label, .. } = star.ends()[facing.index()].clone();
-                View::Ahead { travel, label }
+                let StarEnd { passability, label, .. } = star.ends()[facing.index()].clone();
+                View::Ahead { passability, label }
             }
         }
     }
 
     /// What is ahead: whether the faced oriented local path can be travelled, and its richer attribute.
     #[must_use]
-    pub fn ahead(&self) -> (Travel, Option<String>) {
+    pub fn ahead(&self) -> (Passability, Option<String>) {
         match self {
-            View::Place(star) => (star.ends()[0].travel, star.ends()[0].label.clone()),
-            View::Ahead { travel, label } => (*travel, label.clone()),
+            View::Place(star) => (star.ends()[0].passability, star.ends()[0].label.clone()),
+            View::Ahead { passability, label } => (*passability, label.clone()),
         }
     }
 }
@@ -61,7 +61,7 @@ impl View {
 /// The star with its ends counted from `facing` and its local paths named in that order.
 fn seen_from(star: &Star, facing: Olp) -> Star {
     let degree = star.degree();
-    let turned = |offset: u32| Olp((facing.0 + offset) % degree);
+    let turned = |offset: u32| facing.turned(offset, degree);
     let mut seen: Vec<Olp> = Vec::new();
     let mut name = |olp: Olp| {
         let known = seen.iter().position(|&first| first == star.opposite(olp));
@@ -73,8 +73,8 @@ fn seen_from(star: &Star, facing: Olp) -> Star {
         OlpName { local_path: local_path as u32, sign }
     };
     let ends = (0..degree).map(turned).map(|olp| {
-        let StarEnd { travel, label, .. } = star.ends()[olp.index()].clone();
-        StarEnd { name: name(olp), travel, label }
+        let StarEnd { passability, label, .. } = star.ends()[olp.index()].clone();
+        StarEnd { name: name(olp), passability, label }
     });
     Star::new(ends.collect::<Vec<_>>()).expect("renaming the local paths of a star keeps their pairs")
 }
@@ -85,12 +85,14 @@ impl fmt::Display for View {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let suffix = |label: &Option<String>| label.as_ref().map_or(String::new(), |text| format!(":{text}"));
         match self {
-            View::Ahead { travel: Travel::Travelable, label } => write!(f, "travelable{}", suffix(label)),
-            View::Ahead { travel: Travel::Closed, label } => write!(f, "closed{}", suffix(label)),
+            View::Ahead { passability: Passability::Travelable, label } => {
+                write!(f, "travelable{}", suffix(label))
+            }
+            View::Ahead { passability: Passability::Closed, label } => write!(f, "closed{}", suffix(label)),
             View::Place(star) => {
-                let ends = star.ends().iter().map(|end| match end.travel {
-                    Travel::Travelable => format!("{}{}", end.name, suffix(&end.label)),
-                    Travel::Closed => format!("({}{})", end.name, suffix(&end.label)),
+                let ends = star.ends().iter().map(|end| match end.passability {
+                    Passability::Travelable => format!("{}{}", end.name, suffix(&end.label)),
+                    Passability::Closed => format!("({}{})", end.name, suffix(&end.label)),
                 });
                 f.write_str(&ends.collect::<Vec<_>>().join(" "))
             }

@@ -32,9 +32,8 @@ pub(super) fn of_map(map: &TopologicalMap, bearings: &Bearings) -> Result<Vec<(P
     let mut ends = Vec::new();
     for place in map.places() {
         let star = map.star(place);
-        let first = map.olps_of(place).next().map_or(0, |olp| olp.0);
         let opposite: Vec<usize> =
-            map.olps_of(place).map(|olp| (map.opposite(olp).0 - first) as usize).collect();
+            map.olps_of(place).map(|olp| map.local(map.opposite(olp)).index()).collect();
         let given = bearings.of(star);
         let directions = match given {
             [] => plain(&opposite),
@@ -195,11 +194,11 @@ mod tests {
     fn ends_are_counted_from_the_first_of_their_place() {
         let mut map = TopologicalMap::new();
         let star = "0+ 1+ 0- 1-".parse().unwrap();
-        map.add_place(StarId(0), &star);
-        map.add_place(StarId(0), &star);
+        map.add_place(StarId::new(0), &star);
+        map.add_place(StarId::new(0), &star);
         let ends = of_map(&map, &Bearings::none()).unwrap();
         assert_eq!(ends.len(), 8);
-        assert_eq!(ends[map.olp(PlaceId(1), Olp(0)).index()], (PlaceId(1), FRAC_PI_2));
-        assert_eq!(MapOlp(4), map.olp(PlaceId(1), Olp(0)));
+        assert_eq!(ends[map.olp(PlaceId::new(1), Olp::new(0)).index()], (PlaceId::new(1), FRAC_PI_2));
+        assert_eq!(MapOlp::new(4), map.olp(PlaceId::new(1), Olp::new(0)));
     }
 }

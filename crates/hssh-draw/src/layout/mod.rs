@@ -41,7 +41,7 @@ pub enum LayoutError {
         places: usize,
     },
     /// NaN or infinite.
-    #[error("the pose given for place {} is not finite: {pose:?}", .place.0)]
+    #[error("the pose given for place {place} is not finite: {pose:?}")]
     NotFinite {
         /// The place.
         place: PlaceId,
@@ -49,7 +49,9 @@ pub enum LayoutError {
         pose: Pose,
     },
     /// Another number of bearings than ends.
-    #[error("star {} has {ends} ends but {given} bearings: give one for each end, clockwise, `None` if unknown", .star.0)]
+    #[error(
+        "star {star} has {ends} ends but {given} bearings: give one for each end, clockwise, `None` if unknown"
+    )]
     BearingCount {
         /// The star.
         star: StarId,
@@ -60,8 +62,7 @@ pub enum LayoutError {
     },
     /// Bearings that are no clockwise order.
     #[error(
-        "the bearings of star {} do not go around clockwise, each end at a direction of its own: {bearings:?}",
-        .star.0
+        "the bearings of star {star} do not go around clockwise, each end at a direction of its own: {bearings:?}"
     )]
     NotClockwise {
         /// The star.

@@ -17,7 +17,7 @@ pub(super) fn poses(map: &TopologicalMap, ends: &[(PlaceId, f64)]) -> Result<Vec
         let (leaving, entering) = (ends[from.index()].1, ends[to.index()].1);
         // One unit along the near end; there, the far end looks back.
         let relative_pose = Pose::new(leaving.cos(), leaving.sin(), leaving + PI - entering);
-        let pose_of = |olp| PoseId(map.place(olp).0);
+        let pose_of = |olp| PoseId(map.place(olp).number());
         let information = Information::identity();
         let edge = Edge { from: pose_of(from), to: pose_of(to), relative_pose, information };
         graph.add_edge(edge).expect("the two places are different and in the graph, the pose is finite");

@@ -32,13 +32,13 @@ pub fn map_to_dot(map: &TopologicalMap, catalog: &StarCatalog, options: &MapOpti
 
     for place in map.places() {
         let star = options.star_name(map.star(place)).map(|name| format!("\n{name}")).unwrap_or_default();
-        let label = quoted(&format!("{}{star}", place.0));
+        let label = quoted(&format!("{place}{star}"));
         let current =
             if options.current == Some(place) { ", style=filled, fillcolor=\"#ffe08a\"" } else { "" };
-        let _ = writeln!(dot, "  p{} [label={label}{current}];", place.0);
+        let _ = writeln!(dot, "  p{place} [label={label}{current}];");
     }
     for (from, to) in map.links() {
-        let (start, end) = (map.place(from).0, map.place(to).0);
+        let (start, end) = (map.place(from), map.place(to));
         let style = style(palette.style(map.path(from)));
         let (tail, head) = (name(from), name(to));
         let _ = writeln!(dot, "  p{start} -> p{end} [taillabel=\"{tail}\", headlabel=\"{head}\", {style}];");
@@ -52,12 +52,11 @@ pub fn map_to_dot(map: &TopologicalMap, catalog: &StarCatalog, options: &MapOpti
         let shape =
             if arrow == "empty" { "point, width=0.05" } else { "none, label=\"\", width=0.05, height=0.05" };
         let style = style(palette.style(map.path(olp)));
-        let _ = writeln!(dot, "  e{} [shape={shape}];", olp.0);
+        let _ = writeln!(dot, "  e{olp} [shape={shape}];");
         let _ = writeln!(
             dot,
-            "  p{} -> e{} [dir=forward, arrowhead={arrow}, taillabel=\"{}\", len=0.5, {style}];",
-            map.place(olp).0,
-            olp.0,
+            "  p{} -> e{olp} [dir=forward, arrowhead={arrow}, taillabel=\"{}\", len=0.5, {style}];",
+            map.place(olp),
             name(olp)
         );
     }

@@ -41,7 +41,7 @@ pub fn draw_map(map: &TopologicalMap, layout: &Layout, options: &MapOptions) -> 
         draw_place(&mut canvas, &scene, place, options);
     }
     draw_ellipses(&mut canvas, &scene);
-    if let Some(place) = options.current.filter(|&place| place.0 < map.place_count()) {
+    if let Some(place) = options.current.filter(|&place| place.number() < map.place_count()) {
         let center = scene.on_canvas(layout.position(place));
         let distances = [0.1, 0.2, 0.34].map(|part| RADIUS + part * UNIT);
         let direction = obstacles.clearest_direction(center, &distances, RADIUS);
@@ -79,14 +79,14 @@ fn draw_ellipses(canvas: &mut Canvas, scene: &Scene) {
 fn draw_place(canvas: &mut Canvas, scene: &Scene, place: PlaceId, options: &MapOptions) {
     let center = scene.on_canvas(scene.layout.position(place));
     let fill = if options.current == Some(place) { "#ffe08a" } else { "#ffffff" };
-    canvas.open(&format!(r#"class="place" data-place="{}""#, place.0));
+    canvas.open(&format!(r#"class="place" data-place="{place}""#));
     canvas.circle(center, scene.radius, &format!(r##"fill="{fill}" stroke="#222222" stroke-width="1.6""##));
     for olp in scene.map.olps_of(place) {
-        canvas.open(&format!(r#"class="end" data-end="{}""#, scene.map.local(olp).0));
+        canvas.open(&format!(r#"class="end" data-end="{}""#, scene.map.local(olp)));
         scene.draw_end(canvas, olp);
         canvas.close();
     }
-    let number = place.0.to_string();
+    let number = place.to_string();
     let size = if number.len() < 3 { 14.0 } else { 11.0 };
     canvas.text(center, size, Anchor::Middle, &number, r##"fill="#111111""##);
     canvas.close();

@@ -41,7 +41,7 @@ impl MapOptions {
 
 /// The measure of a map in one line.
 fn measure_line(map: &TopologicalMap) -> String {
-    let Measure { f1, f2, f3, genus } = Measure::of(map);
+    let Measure { undetermined_boundaries, paths, places, genus } = Measure::of(map);
     let counted = |count: u32, noun: &str| match count {
         1 => format!("1 {noun}"),
         _ => format!("{count} {noun}s"),
@@ -50,6 +50,8 @@ fn measure_line(map: &TopologicalMap) -> String {
         0 => "closed".to_owned(),
         pending => format!("not closed: {}", counted(pending, "pending gateway")),
     };
-    let (paths, places) = (counted(f2, "path"), counted(f3, "place"));
-    format!("f1 = {f1}  ·  f2 = {paths}  ·  f3 = {places}  ·  genus {genus}  ·  {closed}")
+    let (paths, places) = (counted(paths, "path"), counted(places, "place"));
+    format!(
+        "f1 = {undetermined_boundaries}  ·  f2 = {paths}  ·  f3 = {places}  ·  genus {genus}  ·  {closed}"
+    )
 }

@@ -71,7 +71,7 @@ impl<'a> Thumbnail<'a> {
             let center = scene.on_canvas(self.layout.position(place));
             canvas.circle(center, RADIUS, r##"fill="#111111""##);
         }
-        if self.current.0 < self.map.place_count() {
+        if self.current.number() < self.map.place_count() {
             let center = scene.on_canvas(self.layout.position(self.current));
             let distances = [0.3, 0.45, 0.6].map(|part| RADIUS + part * UNIT);
             let direction = Obstacles::of(&scene).clearest_direction(center, &distances, RADIUS);

@@ -1,7 +1,7 @@
 //! Maps and searches to draw, built through the public API of the topological level.
 
 use hssh_search::Mapper;
-use hssh_topology::{MapOlp, Olp, Star, StarCatalog, TopologicalMap};
+use hssh_topology::{Olp, PendingGateway, PlaceId, Star, StarCatalog, TopologicalMap};
 use rand::RngExt;
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::SeedableRng;
@@ -48,7 +48,7 @@ impl Grid {
                 for (out, back, (down, right)) in [(1, 3, STEPS[1]), (2, 0, STEPS[2])] {
                     if self.has((row + down, column + right)) {
                         let (from, to) = (at(row, column), at(row + down, column + right));
-                        map.link(map.olp(from, Olp(out)), map.olp(to, Olp(back)));
+                        link(&mut map, (from, out), (to, back));
                     }
                 }
             }
@@ -80,10 +80,16 @@ impl Grid {
         for travel in route.windows(2) {
             let step = (travel[1].0 - travel[0].0, travel[1].1 - travel[0].1);
             let exit = STEPS.iter().position(|&other| other == step).unwrap() as u32;
-            mapper.observe(Olp(exit), Olp((exit + 2) % 4), &self.star(travel[1])).unwrap();
+            mapper.observe(Olp::new(exit), Olp::new((exit + 2) % 4), &self.star(travel[1])).unwrap();
         }
         mapper.advance();
     }
+}
+
+/// Links an end of one place to an end of another.
+pub(crate) fn link(map: &mut TopologicalMap, (place, end): (PlaceId, u32), (other, far): (PlaceId, u32)) {
+    let pending = |place, end| map.pending(map.olp(place, Olp::new(end))).unwrap();
+    map.link(pending(place, end), pending(other, far));
 }
 
 /// A random planar map, grown from one place by new places and by closures within a face.
@@ -98,15 +104,18 @@ pub(crate) fn random_planar(places: u32, closures: u32, seed: u64) -> (Topologic
     map.add_place(id, &stars[0]);
     let mut closed = 0;
     while map.place_count() < places || closed < closures {
-        let pending: Vec<MapOlp> = map.pending_gateways().collect();
+        let pending: Vec<PendingGateway> = map.pending_gateways().collect();
         if pending.is_empty() {
             break;
         }
         let exit = pending[rng.random_range(0..pending.len())];
-        let partners: Vec<MapOlp> = pending
+        let partners: Vec<PendingGateway> = pending
             .iter()
             .copied()
-            .filter(|&other| map.share_face(exit, other) && !map.paths_meet(map.path(exit), map.path(other)))
+            .filter(|&other| {
+                let paths = [exit, other].map(|gateway| map.path(gateway.olp()));
+                map.share_face(exit, other) && !map.paths_meet(paths[0], paths[1])
+            })
             .collect();
         let grows = map.place_count() < places;
         if closed < closures && !partners.is_empty() && (!grows || rng.random_range(0..3) == 0) {
@@ -117,7 +126,8 @@ pub(crate) fn random_planar(places: u32, closures: u32, seed: u64) -> (Topologic
             let id = catalog.intern(star);
             let place = map.add_place(id, star);
             let gateways: Vec<Olp> = star.gateways().collect();
-            map.link(exit, map.olp(place, gateways[rng.random_range(0..gateways.len())]));
+            let entry = map.olp(place, gateways[rng.random_range(0..gateways.len())]);
+            map.link(exit, map.pending(entry).unwrap());
         } else {
             break;
         }

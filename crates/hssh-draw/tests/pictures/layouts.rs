@@ -6,7 +6,7 @@ use hssh_draw::{Bearings, Layout, LayoutError};
 use hssh_metrics::Pose;
 use hssh_topology::{PlaceId, StarCatalog, StarId, TopologicalMap};
 
-use crate::common::{Grid, random_planar};
+use crate::common::{Grid, link, random_planar};
 
 fn distance(layout: &Layout, a: PlaceId, b: PlaceId) -> f64 {
     let (a, b) = (layout.pose(a), layout.pose(b));
@@ -19,7 +19,7 @@ fn a_grid_is_drawn_as_the_grid_up_to_a_rigid_motion() {
         let map = grid.map(&mut StarCatalog::new());
         let layout = Layout::schematic(&map, &Bearings::none()).unwrap();
         let at = |place: PlaceId| {
-            let (row, column) = (place.0 as i32 / grid.columns, place.0 as i32 % grid.columns);
+            let (row, column) = (place.number() as i32 / grid.columns, place.number() as i32 % grid.columns);
             (f64::from(row), f64::from(column))
         };
         for a in map.places() {
@@ -29,8 +29,8 @@ fn a_grid_is_drawn_as_the_grid_up_to_a_rigid_motion() {
             }
         }
         // Not its mirror image: clockwise from north, so that the second end points east.
-        let turn = layout.direction(map.olps_of(PlaceId(0)).next().unwrap()) - FRAC_PI_2;
-        let right = layout.pose(PlaceId(1));
+        let turn = layout.direction(map.olps_of(PlaceId::new(0)).next().unwrap()) - FRAC_PI_2;
+        let right = layout.pose(PlaceId::new(1));
         let (x, y) =
             (right.x * turn.cos() + right.y * turn.sin(), right.y * turn.cos() - right.x * turn.sin());
         assert!((x - 1.0).abs() < 1e-6 && y.abs() < 1e-6);
@@ -58,7 +58,7 @@ fn bearings_turn_the_ends() {
     let mut map = TopologicalMap::new();
     let places = [0; 2].map(|_| map.add_place(id, &star));
     let olps: Vec<_> = places.iter().map(|&place| map.olps_of(place).collect::<Vec<_>>()).collect();
-    map.link(olps[0][0], olps[1][1]);
+    link(&mut map, (places[0], 0), (places[1], 1));
     // A path that bends by a right angle at each place: out to the east, in from the north.
     let bearings = Bearings(vec![vec![Some(0.0), Some(FRAC_PI_2)]]);
     let layout = Layout::schematic(&map, &bearings).unwrap();
@@ -81,10 +81,10 @@ fn what_is_no_layout_is_refused() {
     let infinite = vec![Pose::IDENTITY, Pose { x: f64::INFINITY, ..Pose::IDENTITY }];
     assert!(matches!(
         measured(infinite, &Bearings::none()),
-        Err(LayoutError::NotFinite { place: PlaceId(1), .. })
+        Err(LayoutError::NotFinite { place, .. }) if place == PlaceId::new(1)
     ));
     let short = Bearings(vec![vec![Some(0.0)]]);
-    let expected = LayoutError::BearingCount { star: StarId(0), ends: 4, given: 1 };
+    let expected = LayoutError::BearingCount { star: StarId::new(0), ends: 4, given: 1 };
     assert_eq!(measured(poses.clone(), &short), Err(expected));
     let counterclockwise = Bearings(vec![[0.0, 1.0, 2.0, 3.0].map(Some).to_vec()]);
     assert!(matches!(measured(poses, &counterclockwise), Err(LayoutError::NotClockwise { .. })));

@@ -4,9 +4,9 @@ use std::f64::consts::TAU;
 
 use hssh_draw::{Bearings, Layout, MapOptions, draw_map, map_to_dot};
 use hssh_metrics::Pose;
-use hssh_topology::{Olp, PlaceId, StarCatalog, TopologicalMap};
+use hssh_topology::{PlaceId, StarCatalog, TopologicalMap};
 
-use crate::common::{Grid, random_planar};
+use crate::common::{Grid, link, random_planar};
 
 /// The value of an attribute in a line of SVG.
 fn attribute<'a>(line: &'a str, name: &str) -> Option<&'a str> {
@@ -101,7 +101,7 @@ fn links_leave_their_places_in_the_direction_of_the_end() {
 fn equal_maps_give_equal_pictures() {
     let draw = || {
         let (map, catalog) = random_planar(30, 12, 7);
-        let options = MapOptions { current: Some(PlaceId(3)), ..MapOptions::default() };
+        let options = MapOptions { current: Some(PlaceId::new(3)), ..MapOptions::default() };
         (schematic(&map, &options), map_to_dot(&map, &catalog, &options))
     };
     assert_eq!(draw(), draw());
@@ -112,7 +112,9 @@ fn the_unit_of_length_does_not_matter() {
     let grid = Grid { rows: 3, columns: 3 };
     let map = grid.map(&mut StarCatalog::new());
     // The same grid as measured: 8 m from crossing to crossing, the first row northernmost.
-    let metres = |place: PlaceId| Pose::new(f64::from(place.0 % 3) * 8.0, -f64::from(place.0 / 3) * 8.0, 0.0);
+    let metres = |place: PlaceId| {
+        Pose::new(f64::from(place.number() % 3) * 8.0, -f64::from(place.number() / 3) * 8.0, 0.0)
+    };
     let poses = map.places().map(metres).collect();
     let measured = Layout::measured(&map, poses, &Bearings::none()).unwrap();
     let options = MapOptions::default();
@@ -126,12 +128,12 @@ fn maps_that_fit_no_plane_are_drawn_too() {
     let id = StarCatalog::new().intern(&star);
     let mut torus = TopologicalMap::new();
     let place = torus.add_place(id, &star);
-    torus.link(torus.olp(place, Olp(0)), torus.olp(place, Olp(2)));
-    torus.link(torus.olp(place, Olp(1)), torus.olp(place, Olp(3)));
+    link(&mut torus, (place, 0), (place, 2));
+    link(&mut torus, (place, 1), (place, 3));
     let mut ring = TopologicalMap::new();
     let places = [0; 2].map(|_| ring.add_place(id, &star));
-    ring.link(ring.olp(places[0], Olp(1)), ring.olp(places[1], Olp(3)));
-    ring.link(ring.olp(places[0], Olp(3)), ring.olp(places[1], Olp(1)));
+    link(&mut ring, (places[0], 1), (places[1], 3));
+    link(&mut ring, (places[0], 3), (places[1], 1));
     for map in [torus, ring, TopologicalMap::new()] {
         let svg = schematic(&map, &MapOptions::default());
         assert!(!svg.contains("NaN") && !svg.contains("inf"), "{svg}");
@@ -143,7 +145,7 @@ fn two_places_as_svg() {
     let map = Grid { rows: 1, columns: 2 }.map(&mut StarCatalog::new());
     let options = MapOptions {
         title: Some("A & B".to_owned()),
-        current: Some(PlaceId(1)),
+        current: Some(PlaceId::new(1)),
         star_names: vec!["west".to_owned()],
         measure: true,
     };
@@ -157,7 +159,7 @@ fn a_partial_map_as_dot() {
     let id = catalog.intern(&tee);
     let mut map = TopologicalMap::new();
     let places = [0; 2].map(|_| map.add_place(id, &tee));
-    map.link(map.olp(places[0], Olp(0)), map.olp(places[1], Olp(2)));
-    let options = MapOptions { current: Some(PlaceId(1)), ..MapOptions::default() };
+    link(&mut map, (places[0], 0), (places[1], 2));
+    let options = MapOptions { current: Some(PlaceId::new(1)), ..MapOptions::default() };
     insta::assert_snapshot!(map_to_dot(&map, &catalog, &options));
 }

@@ -13,9 +13,9 @@ fn corners() -> SearchTree {
     let axioms = Axioms { max_places: Some(4), ..Axioms::default() };
     let mut mapper = Mapper::builder().axioms(axioms).start(&corner).unwrap();
     for _ in 0..3 {
-        mapper.observe(Olp(0), Olp(3), &corner).unwrap();
+        mapper.observe(Olp::new(0), Olp::new(3), &corner).unwrap();
     }
-    mapper.observe(Olp(0), Olp(3), &"0+ (1+) 0- 1-".parse().unwrap()).unwrap();
+    mapper.observe(Olp::new(0), Olp::new(3), &"0+ (1+) 0- 1-".parse().unwrap()).unwrap();
     mapper.advance();
     SearchTree::of(mapper.tree(), mapper.experience(), &[], 60)
 }

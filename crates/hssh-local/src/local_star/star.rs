@@ -3,7 +3,7 @@
 use std::f64::consts::{PI, TAU};
 
 use hssh_metrics::wrap_angle;
-use hssh_topology::{Olp, OlpName, Sign, Star, StarEnd, Travel};
+use hssh_topology::{Olp, OlpName, Passability, Sign, Star, StarEnd};
 
 use super::PlaceParameters;
 use super::local_path::continuations;
@@ -102,8 +102,8 @@ fn named(ends: &[End]) -> Vec<StarEnd> {
             seen.push(end.local_path);
             seen.len() - 1
         }) as u32;
-        let travel = if end.gateway.is_some() { Travel::Travelable } else { Travel::Closed };
-        StarEnd { name: OlpName { local_path, sign }, travel, label: None }
+        let passability = if end.gateway.is_some() { Passability::Travelable } else { Passability::Closed };
+        StarEnd { name: OlpName { local_path, sign }, passability, label: None }
     };
     ends.iter().map(&mut name).collect()
 }

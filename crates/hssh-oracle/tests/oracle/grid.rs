@@ -30,7 +30,12 @@ pub(crate) fn exploration(rows: usize, columns: usize, route: &[Place]) -> Explo
         .windows(2)
         .map(|pair| {
             let exit = direction(pair[0], pair[1]);
-            Travel { exit: Olp(exit), entry: Olp((exit + 2) % 4), star: star_type(pair[1]), odometry: None }
+            Travel {
+                exit: Olp::new(exit),
+                entry: Olp::new((exit + 2) % 4),
+                star: star_type(pair[1]),
+                odometry: None,
+            }
         })
         .collect();
     Exploration::new(star_types, start, travels).unwrap()

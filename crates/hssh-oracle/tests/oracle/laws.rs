@@ -20,7 +20,8 @@ fn no_rules() -> Rules {
 fn all_crossings(exits: &[u32]) -> Exploration {
     let star: hssh_topology::Star = "0+ 1+ 0- 1-".parse().unwrap();
     let plus = NamedStar { name: "plus".to_owned(), star, bearings: vec![None; 4] };
-    let travel = |&exit| Travel { exit: Olp(exit), entry: Olp(0), star: StarType(0), odometry: None };
+    let travel =
+        |&exit| Travel { exit: Olp::new(exit), entry: Olp::new(0), star: StarType(0), odometry: None };
     Exploration::new(vec![plus], StarType(0), exits.iter().map(travel).collect()).unwrap()
 }
 

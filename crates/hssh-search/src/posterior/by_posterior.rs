@@ -27,7 +27,7 @@ const NEGLIGIBLE: f64 = 0.1;
 
 /// By how much costs may differ and still count as equal, relative to one nat and to the cost: least squares end
 /// when they promise no more than that.
-pub(crate) const TIE: f64 = 1e-6;
+const TIE: f64 = 1e-6;
 
 /// A cost that orders.
 #[derive(Clone, Copy, PartialEq, Debug)]

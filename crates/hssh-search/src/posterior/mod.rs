@@ -9,7 +9,7 @@ mod outlook;
 mod tariff;
 
 pub use appearance::Appearance;
-pub(crate) use by_posterior::{ByPosterior, TIE};
+pub(crate) use by_posterior::ByPosterior;
 pub use cost::Cost;
 pub use model::{Corridor, MapPrior, Metrical, ModelError, PlacePrior, PosteriorModel};
 pub use outlook::LINEAR_TRUST;

@@ -125,7 +125,7 @@ impl Outlook {
 /// The rotations of all isomorphisms between two stars.
 fn rotations(catalog: &StarCatalog, seen: StarId, first: StarId) -> impl Iterator<Item = u32> + '_ {
     let degree = catalog.star(first).degree();
-    (0..degree).filter(move |&rotation| catalog.matches(seen, Olp(0), first, Olp(rotation)))
+    (0..degree).filter(move |&rotation| catalog.matches(seen, Olp::new(0), first, Olp::new(rotation)))
 }
 
 /// χ²/2 of a way that ends where it began, in a frame turned by `turn`.

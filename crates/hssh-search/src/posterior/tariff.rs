@@ -108,7 +108,7 @@ impl Tariff {
                 gateways.filter(|&olp| catalog.matches(now.star, now.entry, star, olp)).count() as u32
             };
             let often = self.seen.iter().enumerate().filter(|(_, often)| **often > 0);
-            let alike = often.map(|(star, often)| often * alike(StarId(star as u32))).sum();
+            let alike = often.map(|(star, often)| often * alike(StarId::new(star as u32))).sum();
             let gateways = catalog.star(now.star).gateways().count() as u32;
             self.branching.push(Branching { alike, gained: gateways.saturating_sub(2) });
         }

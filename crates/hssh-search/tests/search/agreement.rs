@@ -47,7 +47,8 @@ fn compare_counts(report: &Report, naive: &Enumeration, exploration: &Exploratio
     assert_eq!(perpendicular as usize, naive.closed_and_perpendicular());
     let nearly = naive.final_maps.iter().filter(|last| nearly_closed(last, exploration)).count();
     assert_eq!(report.finals.nearly_closed as usize, nearly);
-    let best = best.map(|best| (best.f1 as usize, best.f2 as usize, best.f3 as usize));
+    let best =
+        best.map(|best| (best.undetermined_boundaries as usize, best.paths as usize, best.places as usize));
     let optimum = naive.optimum().map(|(value, _)| (value.unrelated, value.paths, value.places));
     assert_eq!(best, optimum);
     assert_eq!(optimal as usize, naive.optimum().map_or(0, |(_, number)| number));
@@ -56,7 +57,7 @@ fn compare_counts(report: &Report, naive: &Enumeration, exploration: &Exploratio
 
 /// A final map of the naive mapper as a sketch.
 fn plain(last: &FinalMap, exploration: &Exploration) -> MapSketch {
-    let end = |(place, olp)| End { place: PlaceId(place as u32), olp: Olp(olp as u32) };
+    let end = |(place, olp)| End { place: PlaceId::new(place as u32), olp: Olp::new(olp as u32) };
     MapSketch {
         places: last.places.iter().map(|&star| exploration.star(star).clone()).collect(),
         links: last.links.iter().map(|&(a, b)| (end(a), end(b))).collect(),

@@ -2,11 +2,14 @@
 
 use hssh_causal::{Exploration, NamedStar, StarType, Travel};
 use hssh_oracle::Rules;
-use hssh_search::{Limits, Mapper, NodeId, Strategy as Search};
+use hssh_search::{Goal, Limits, Mapper, NodeId, Order};
 use hssh_topology::{Axioms, MapSketch, Olp, Star};
 use hssh_world::{grid, strategies};
 use proptest::prelude::*;
 use proptest::sample::Index;
+
+/// An order with what it accepts.
+pub(crate) type Way = (Order, Goal);
 
 /// No axiom at all.
 pub(crate) const FREE: Axioms = Axioms {
@@ -131,7 +134,7 @@ pub(crate) fn grid_walk(rows: u32, columns: u32, route: &[hssh_world::PlaceId]) 
 
 /// Breadth-first, all of it.
 pub(crate) fn breadth_first(exploration: &Exploration, axioms: Axioms) -> Mapper {
-    Mapper::builder().axioms(axioms).strategy(Search::BreadthFirst).explain(exploration).unwrap()
+    Mapper::builder().axioms(axioms).explain(exploration).unwrap()
 }
 
 /// The nodes that explain all travels, in order of creation.

@@ -1,7 +1,7 @@
 //! Tests that tell maps apart, made in both maps.
 
 use hssh_search::{Distinction, Mapper, Prediction, distinguish};
-use hssh_topology::{Axioms, Derivation, Extension, Hypothesis, Observation, Removals};
+use hssh_topology::{Axioms, Derivation, Hypothesis, Observation, Outcome, Rules, Step};
 use hssh_world::{grid, random_walk, snake};
 
 /// What a hypothesis makes of an observation.
@@ -13,15 +13,16 @@ enum Verdict {
 }
 
 fn observe(hypothesis: &mut Hypothesis, seen: Observation, mapper: &Mapper) -> Verdict {
-    let (axioms, mut removals) = (Axioms::default(), Removals::default());
-    let mut extensions: Vec<Extension> = Vec::new();
-    match hypothesis.step(seen, &mapper.experience().catalog, &axioms, &mut extensions, &mut removals) {
-        Derivation::PredictedConsistent(arrival) => {
-            hypothesis.arrive(arrival, seen.entry);
+    let (axioms, mut step) = (Axioms::default(), Step::default());
+    let rules = Rules { catalog: &mapper.experience().catalog, axioms: &axioms };
+    hypothesis.step(seen, rules, &mut step);
+    match step.outcome {
+        Outcome::Predicted => {
+            let _ = hypothesis.follow(seen, Derivation::Predicted, rules.catalog);
             Verdict::Predicted
         }
-        Derivation::PredictedInconsistent => Verdict::Refuted,
-        Derivation::Expand(_) => Verdict::Open,
+        Outcome::Refuted => Verdict::Refuted,
+        Outcome::Open | Outcome::Expanded => Verdict::Open,
     }
 }
 

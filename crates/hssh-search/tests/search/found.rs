@@ -5,7 +5,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use hssh_causal::Exploration;
 use hssh_search::{Experience, Mapper};
 use hssh_topology::{
-    Contradiction, Discovery, End, MapSketch, Olp, OlpName, PlaceId, Replay, Sign, Star, StarEnd, Travel,
+    Contradiction, Discovery, End, MapSketch, OlpName, Passability, PlaceId, Replay, Sign, Star, StarEnd,
     replay, violations,
 };
 use hssh_world::strategies;
@@ -32,17 +32,17 @@ fn ordered(links: impl IntoIterator<Item = (End, End)>) -> Vec<(End, End)> {
 /// star that was seen on that visit.
 fn as_found(sketch: &MapSketch, told: &Replay, experience: &Experience) -> MapSketch {
     let mut places = vec![experience.catalog.star(experience.start).clone()];
-    let mut known = BTreeMap::from([(PlaceId(0), (PlaceId(0), 0))]);
+    let mut known = BTreeMap::from([(PlaceId::new(0), (PlaceId::new(0), 0))]);
     for (travel, observation) in told.travels.iter().zip(&experience.observations) {
         if travel.discovery == Discovery::NewPlace {
-            known.insert(travel.to, (PlaceId(places.len() as u32), travel.rotation));
+            known.insert(travel.to, (PlaceId::new(places.len() as u32), travel.rotation));
             places.push(experience.catalog.star(observation.star).clone());
         }
     }
     let end = |end: End| {
         let (place, rotation) = known[&end.place];
         let degree = places[place.index()].degree();
-        End { place, olp: Olp((end.olp.0 + degree - rotation) % degree) }
+        End { place, olp: end.olp.turned(degree - rotation, degree) }
     };
     let links = ordered(sketch.links.iter().map(|&(a, b)| (end(a), end(b))));
     MapSketch { places, links }
@@ -51,10 +51,9 @@ fn as_found(sketch: &MapSketch, told: &Replay, experience: &Experience) -> MapSk
 /// Gateways without a link.
 fn pending(sketch: &MapSketch) -> Vec<End> {
     let linked: BTreeSet<End> = sketch.links.iter().flat_map(|&(a, b)| [a, b]).collect();
-    let gateways =
-        sketch.places.iter().enumerate().flat_map(|(place, star)| {
-            star.gateways().map(move |olp| End { place: PlaceId(place as u32), olp })
-        });
+    let gateways = sketch.places.iter().enumerate().flat_map(|(place, star)| {
+        star.gateways().map(move |olp| End { place: PlaceId::new(place as u32), olp })
+    });
     gateways.filter(|end| !linked.contains(end)).collect()
 }
 
@@ -66,8 +65,8 @@ fn relabel(star: &Star, end: usize) -> Star {
 }
 
 fn dead_end() -> Star {
-    let end = |sign, travel| StarEnd { name: OlpName { local_path: 0, sign }, travel, label: None };
-    Star::new([end(Sign::Plus, Travel::Travelable), end(Sign::Minus, Travel::Closed)]).unwrap()
+    let end = |sign, passability| StarEnd { name: OlpName { local_path: 0, sign }, passability, label: None };
+    Star::new([end(Sign::Plus, Passability::Travelable), end(Sign::Minus, Passability::Closed)]).unwrap()
 }
 
 /// What a mapper says about a travel is what the checker says.
@@ -118,7 +117,7 @@ proptest! {
 
             let mut larger = found.clone();
             larger.places.push(dead_end());
-            let nowhere = PlaceId(found.places.len() as u32);
+            let nowhere = PlaceId::new(found.places.len() as u32);
             prop_assert_eq!(told(&larger, experience), Err(Contradiction::UnvisitedPlace(nowhere)));
 
             if let [a, .., b] = pending(&found)[..] {
@@ -203,7 +202,7 @@ fn true_map(exploration: &Exploration, world: &hssh_world::World, route: &hssh_w
     });
     let end = |place, olp| {
         let number = order.iter().position(|other| *other == place).unwrap();
-        End { place: PlaceId(number as u32), olp }
+        End { place: PlaceId::new(number as u32), olp }
     };
     let crossed = exploration.travels().iter().zip(visits.windows(2));
     MapSketch {

@@ -4,11 +4,11 @@ use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 use hssh_causal::Exploration;
-use hssh_search::{FinalCounts, Goal, Limits, Mapper, MapperBuilder, Monitor, Report, StopReason, Strategy};
+use hssh_search::{FinalCounts, Goal, Limits, Mapper, MapperBuilder, Monitor, Order, Report, StopReason};
 use hssh_topology::Axioms;
 use hssh_world::snake;
 
-use crate::cases::{grid_walk, planar, sketches};
+use crate::cases::{Way, grid_walk, planar, sketches};
 use crate::threads::STRATEGIES;
 
 const NONE: Limits = Limits { nodes: None, time: None, bytes: None };
@@ -18,8 +18,8 @@ fn walk() -> Exploration {
     grid_walk(5, 5, &snake(5, 5))
 }
 
-fn search(strategy: Strategy, limits: Limits) -> Mapper {
-    Mapper::builder().axioms(planar()).strategy(strategy).limits(limits).explain(&walk()).unwrap()
+fn search(strategy: Way, limits: Limits) -> Mapper {
+    Mapper::builder().axioms(planar()).order(strategy.0).goal(strategy.1).limits(limits).explain(&walk()).unwrap()
 }
 
 fn counted(limits: Limits, monitor: &Arc<Monitor>) -> Report {
@@ -46,7 +46,7 @@ fn a_limit_on_nodes() {
         let before = mapper.report();
         assert_eq!(before.stop, StopReason::NodeLimit);
         assert!(!before.stop.is_complete());
-        if strategy == Strategy::BreadthFirst {
+        if strategy == (Order::BreadthFirst, Goal::AnyMap) {
             assert!(before.nodes <= limit && before.explained > 0);
             shows_its_last_level(&mapper);
         } else {
@@ -66,8 +66,8 @@ fn a_limit_on_memory() {
     for strategy in STRATEGIES {
         let mapper = search(strategy, Limits { bytes: Some(20_000), ..NONE });
         assert_eq!(mapper.report().stop, StopReason::MemoryLimit);
-        if strategy == Strategy::BreadthFirst {
-            assert!(mapper.explained() > 0 && mapper.report().tree_bytes <= 20_000);
+        if strategy == (Order::BreadthFirst, Goal::AnyMap) {
+            assert!(mapper.explained() > 0 && mapper.report().bytes <= 20_000);
             shows_its_last_level(&mapper);
         }
     }
@@ -82,7 +82,7 @@ fn no_time_at_all() {
         assert_eq!(mapper.report().stop, StopReason::TimeLimit);
         assert_eq!(mapper.report().nodes, 1);
     }
-    let breadth_first = search(Strategy::BreadthFirst, none);
+    let breadth_first = search((Order::BreadthFirst, Goal::AnyMap), none);
     assert_eq!((breadth_first.explained(), breadth_first.maps(9).len()), (0, 1));
     shows_its_last_level(&breadth_first);
     let report = counted(none, &Arc::default());
@@ -96,16 +96,16 @@ fn going_on_after_a_time_limit() {
     let (large, small) = (walk(), grid_walk(4, 4, &snake(4, 4)));
     let cases = [
         // A level is made in one call or not at all: these are small.
-        (Strategy::BreadthFirst, &small),
-        (Strategy::BestFirst(Goal::AnyMap), &large),
-        (Strategy::Proof(Goal::AnyMap), &large),
-        (Strategy::Proof(Goal::ClosedMap), &large),
+        ((Order::BreadthFirst, Goal::AnyMap), &small),
+        ((Order::BestFirst, Goal::AnyMap), &large),
+        ((Order::Proof, Goal::AnyMap), &large),
+        ((Order::Proof, Goal::ClosedMap), &large),
     ];
     let axioms = Axioms { max_places: Some(16), ..planar() };
     for (strategy, exploration) in cases {
-        let axioms = if strategy == Strategy::BreadthFirst { axioms } else { planar() };
+        let axioms = if strategy == (Order::BreadthFirst, Goal::AnyMap) { axioms } else { planar() };
         let search = |limits| {
-            let builder = Mapper::builder().axioms(axioms).strategy(strategy).limits(limits);
+            let builder = Mapper::builder().axioms(axioms).order(strategy.0).goal(strategy.1).limits(limits);
             builder.explain(exploration).unwrap()
         };
         let (whole, mut mapper) = (search(NONE), search(short));
@@ -120,8 +120,8 @@ fn going_on_after_a_time_limit() {
     }
 }
 
-fn watched(strategy: Strategy, monitor: &Arc<Monitor>) -> MapperBuilder {
-    Mapper::builder().axioms(planar()).strategy(strategy).monitor(Arc::clone(monitor))
+fn watched(strategy: Way, monitor: &Arc<Monitor>) -> MapperBuilder {
+    Mapper::builder().axioms(planar()).order(strategy.0).goal(strategy.1).monitor(Arc::clone(monitor))
 }
 
 #[test]
@@ -153,7 +153,7 @@ fn interrupt_once_under_way(monitor: &Arc<Monitor>) -> std::thread::JoinHandle<(
 #[test]
 fn interrupted_on_the_way() {
     for strategy in
-        [Strategy::BreadthFirst, Strategy::BestFirst(Goal::ClosedMap), Strategy::Proof(Goal::AnyMap)]
+        [(Order::BreadthFirst, Goal::AnyMap), (Order::BestFirst, Goal::ClosedMap), (Order::Proof, Goal::AnyMap)]
     {
         let monitor = Arc::new(Monitor::default());
         let visitor = interrupt_once_under_way(&monitor);
@@ -163,7 +163,7 @@ fn interrupted_on_the_way() {
         let report = mapper.report();
         assert_eq!(report.stop, StopReason::Interrupted);
         assert!(monitor.nodes() >= 2000 && monitor.travels() > 0);
-        if strategy == Strategy::BreadthFirst {
+        if strategy == (Order::BreadthFirst, Goal::AnyMap) {
             assert!(mapper.explained() >= monitor.travels() as usize);
             assert_eq!(mapper.maps(usize::MAX).len() as u64, report.levels[mapper.explained()].nodes);
         }

@@ -1,24 +1,26 @@
 //! One observation at a time ends where all at once do.
 
 use hssh_causal::Exploration;
-use hssh_search::{Goal, Mapper, ObservationError, Report, StopReason, Strategy};
-use hssh_topology::{Axioms, Olp, Star};
+use hssh_search::{
+    Branch, Experience, Goal, Mapper, Order, RankedMap, Report, StopReason, Visit, VisitError,
+};
+use hssh_topology::{Axioms, Derivation, MapSketch, Measure, Olp, Star};
 use proptest::prelude::*;
 
-use crate::cases::{case, sketch, sketches};
+use crate::cases::{Way, case, sketch, sketches};
 use crate::threads::STRATEGIES;
 
 fn observe_all(
     exploration: &Exploration,
     axioms: Axioms,
-    strategy: Strategy,
+    strategy: Way,
     each: impl Fn(&mut Mapper),
 ) -> Mapper {
-    let builder = Mapper::builder().axioms(axioms).strategy(strategy);
+    let builder = Mapper::builder().axioms(axioms).order(strategy.0).goal(strategy.1);
     let mut mapper = builder.start(exploration.star(exploration.start())).unwrap();
     each(&mut mapper);
     for travel in exploration.travels() {
-        mapper.observe(travel.exit, travel.entry, exploration.star(travel.star)).unwrap();
+        mapper.observe(Visit::new(travel.exit, travel.entry, exploration.star(travel.star))).unwrap();
         each(&mut mapper);
     }
     mapper.advance();
@@ -29,31 +31,66 @@ fn timeless(mapper: &Mapper) -> Report {
     Report { seconds: 0.0, ..mapper.report() }
 }
 
+/// What a mapper answers: what its maps measure and the choices that lead to them, in order.
+fn answer(mapper: &Mapper) -> Vec<(Measure, String)> {
+    let of = |map: &RankedMap| (map.measure, mapper.branch(map.node).to_string());
+    mapper.maps(usize::MAX).iter().map(of).collect()
+}
+
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(240))]
 
     #[test]
     fn step_by_step((exploration, axioms) in case(1500)) {
-        let steady = [Strategy::BreadthFirst, Strategy::BestFirst(Goal::AnyMap), Strategy::Proof(Goal::AnyMap), Strategy::Proof(Goal::ClosedMap)];
-        for strategy in steady {
+        for strategy in STRATEGIES.into_iter().filter(|&way| way != (Order::BestFirst, Goal::ClosedMap)) {
             let at_once = observe_all(&exploration, axioms, strategy, |_| {});
-            let whole = Mapper::builder().axioms(axioms).strategy(strategy).explain(&exploration).unwrap();
+            let builder = Mapper::builder().axioms(axioms).order(strategy.0).goal(strategy.1);
+            let whole = builder.explain(&exploration).unwrap();
             let step_by_step = observe_all(&exploration, axioms, strategy, |mapper| {
                 assert!(mapper.advance().is_complete());
             });
-            for other in [at_once, step_by_step] {
-                prop_assert_eq!(timeless(&other), timeless(&whole), "{:?}", strategy);
-                prop_assert_eq!(other.maps(usize::MAX), whole.maps(usize::MAX));
-                prop_assert_eq!(sketches(&other), sketches(&whole));
+            prop_assert_eq!(timeless(&at_once), timeless(&whole), "{:?}", strategy);
+            prop_assert_eq!(at_once.maps(usize::MAX), whole.maps(usize::MAX));
+            prop_assert_eq!(answer(&step_by_step), answer(&whole), "{:?}", strategy);
+            prop_assert_eq!(step_by_step.report().stop, whole.report().stop);
+            prop_assert_eq!(step_by_step.report().is_optimal, whole.report().is_optimal);
+            if matches!(strategy.0, Order::BreadthFirst | Order::BestFirst) {
+                // Nothing was done that a search of the whole would not have done.
+                prop_assert_eq!(timeless(&step_by_step), timeless(&whole), "{:?}", strategy);
             }
+            prop_assert_eq!(sketches(&step_by_step), sketches(&whole));
         }
+    }
+
+    /// A branch makes the same hypothesis anywhere.
+    #[test]
+    fn branches_are_what_hypotheses_are((exploration, axioms) in case(800)) {
+        let mapper = Mapper::builder().axioms(axioms).explain(&exploration).unwrap();
+        let (experience, other) = (Experience::from(&exploration), Axioms { max_places: Some(0), ..axioms });
+        let mut branches: Vec<Branch> = Vec::new();
+        for map in mapper.maps(usize::MAX) {
+            let branch = mapper.branch(map.node);
+            let anew = branch.replay(&experience, &axioms).unwrap();
+            let known = mapper.hypothesis(map.node);
+            prop_assert_eq!(anew.position, known.position);
+            let sketch = |map| MapSketch::of(map, &experience.catalog);
+            prop_assert_eq!(sketch(&anew.map), sketch(&known.map));
+            prop_assert_eq!(branch.to_string().parse::<Branch>().unwrap(), branch.clone());
+            let grows = branch.choices().contains(&Derivation::NewPlace);
+            prop_assert_eq!(branch.replay(&experience, &other).is_none(), grows);
+            branches.push(branch);
+        }
+        let number = branches.len();
+        branches.sort();
+        branches.dedup();
+        prop_assert_eq!(branches.len(), number);
     }
 
     /// To go back for a closed map at every step expands more, but finds a map if there is one.
     #[test]
     fn closed_maps_step_by_step((exploration, axioms) in case(1500)) {
-        let strategy = Strategy::BestFirst(Goal::ClosedMap);
-        let whole = Mapper::builder().axioms(axioms).strategy(strategy).explain(&exploration).unwrap();
+        let strategy = (Order::BestFirst, Goal::ClosedMap);
+        let whole = Mapper::builder().axioms(axioms).order(strategy.0).goal(strategy.1).explain(&exploration).unwrap();
         let step_by_step = observe_all(&exploration, axioms, strategy, |mapper| {
             mapper.advance();
         });
@@ -72,11 +109,10 @@ proptest! {
 fn before_the_first_travel() {
     let crossing: Star = "0+ 1+ 0- 1-".parse().unwrap();
     for strategy in STRATEGIES {
-        let mut mapper = Mapper::builder().strategy(strategy).start(&crossing).unwrap();
+        let mut mapper = Mapper::builder().order(strategy.0).goal(strategy.1).start(&crossing).unwrap();
         for _ in 0..3 {
             assert!(mapper.advance().is_complete());
-            let closed_only =
-                matches!(strategy, Strategy::Proof(Goal::ClosedMap) | Strategy::BestFirst(Goal::ClosedMap));
+            let closed_only = strategy.1 == Goal::ClosedMap;
             assert_eq!(mapper.maps(9).len(), usize::from(!closed_only), "{strategy:?}");
         }
     }
@@ -87,7 +123,7 @@ fn before_the_first_travel() {
 fn advancing_twice() {
     let exploration = hssh_world::strategies::random_exploration(3);
     for strategy in STRATEGIES {
-        let mut mapper = Mapper::builder().strategy(strategy).explain(&exploration).unwrap();
+        let mut mapper = Mapper::builder().order(strategy.0).goal(strategy.1).explain(&exploration).unwrap();
         let (stop, before, maps) = (mapper.report().stop, timeless(&mapper), mapper.maps(99));
         assert_eq!(mapper.advance(), stop);
         assert_eq!((timeless(&mapper), mapper.maps(99)), (before, maps));
@@ -98,18 +134,18 @@ fn advancing_twice() {
 fn impossible_observations_are_refused_and_forgotten() {
     let (crossing, tee): (Star, Star) = ("0+ 1+ 0- 1-".parse().unwrap(), "0+ (1+) 0- 1-".parse().unwrap());
     let mut mapper = Mapper::builder().start(&tee).unwrap();
-    let refusal = mapper.observe(Olp(4), Olp(0), &crossing).unwrap_err();
-    assert_eq!(refusal, ObservationError::NoSuchEnd { star: tee.clone(), olp: Olp(4) });
+    let refusal = mapper.observe(Visit::new(Olp::new(4), Olp::new(0), &crossing)).unwrap_err();
+    assert_eq!(refusal, VisitError::NoSuchEnd { star: tee.clone(), olp: Olp::new(4) });
     assert_eq!(refusal.to_string(), "the star [<0+,T>, <1+,C>, <0-,T>, <1-,T>] has no end number 4");
-    let refusal = mapper.observe(Olp(1), Olp(0), &crossing).unwrap_err();
+    let refusal = mapper.observe(Visit::new(Olp::new(1), Olp::new(0), &crossing)).unwrap_err();
     assert_eq!(refusal.to_string(), "the end 1+ of the star [<0+,T>, <1+,C>, <0-,T>, <1-,T>] is closed");
-    let refusal = mapper.observe(Olp(0), Olp(1), &tee).unwrap_err();
-    assert_eq!(refusal, ObservationError::ClosedEnd { star: tee.clone(), olp: Olp(1) });
-    assert!(mapper.observe(Olp(0), Olp(9), &crossing).is_err());
+    let refusal = mapper.observe(Visit::new(Olp::new(0), Olp::new(1), &tee)).unwrap_err();
+    assert_eq!(refusal, VisitError::ClosedEnd { star: tee.clone(), olp: Olp::new(1) });
+    assert!(mapper.observe(Visit::new(Olp::new(0), Olp::new(9), &crossing)).is_err());
     assert!(mapper.experience().observations.is_empty());
-    mapper.observe(Olp(0), Olp(2), &crossing).unwrap();
+    mapper.observe(Visit::new(Olp::new(0), Olp::new(2), &crossing)).unwrap();
     // The exit is now one of the crossing.
-    mapper.observe(Olp(1), Olp(0), &tee).unwrap();
+    mapper.observe(Visit::new(Olp::new(1), Olp::new(0), &tee)).unwrap();
     assert_eq!(mapper.advance(), StopReason::Exhausted);
     assert_eq!(mapper.explained(), 2);
 }

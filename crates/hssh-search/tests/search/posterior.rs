@@ -3,8 +3,8 @@
 use hssh_causal::Exploration;
 use hssh_metrics::{Marginals, UniformPrior};
 use hssh_search::{
-    Cursor, Experience, Goal, MapPrior, Mapper, Metrical, PlacePrior, PosteriorModel, PosteriorOrder,
-    PosteriorSearch, Proving, place_by_odometry,
+    Cursor, Experience, Goal, MapPrior, Mapper, MapperBuilder, Metrical, Order, PlacePrior, PosteriorModel,
+    Proving, RankedMap, Score, place_by_odometry,
 };
 use hssh_topology::{Axioms, Simplicity};
 use hssh_world::{DriftModel, cover, grid, random_planar, snake};
@@ -29,8 +29,23 @@ fn snake_in_grid(rows: u32, columns: u32, noise: f64, seed: u64) -> Exploration 
     world.explore_with_odometry(&route, &drift, seed).unwrap()
 }
 
-fn all_of(search: PosteriorSearch) -> PosteriorSearch {
-    PosteriorSearch { order: PosteriorOrder::Proof(Proving { best: usize::MAX, rest: 1.0 }), ..search }
+/// With a proof of the most probable map.
+fn proving(model: PosteriorModel) -> MapperBuilder {
+    Mapper::builder().posterior(model).order(Order::Cyclic)
+}
+
+const ALL: Proving = Proving { best: usize::MAX, rest: 1.0, patience: None };
+
+fn all_of(search: MapperBuilder) -> MapperBuilder {
+    search.proving(ALL)
+}
+
+fn best(mapper: &Mapper) -> RankedMap {
+    mapper.maps(1).remove(0)
+}
+
+fn cost(map: &RankedMap) -> f64 {
+    map.nats().unwrap()
 }
 
 fn evidence(prior: MapPrior) -> PosteriorModel {
@@ -54,7 +69,7 @@ fn best_by_enumeration(
             let visits = mapper.visits(map.node);
             let chi2 = place_by_odometry(exploration, &visits).unwrap().unwrap().chi2;
             let f = weights.of(&cursor.go_to(map.node, mapper.tree(), &experience).map);
-            (chi2 / 2.0 + f.ln(), visits.iter().map(|visit| visit.place.0).collect())
+            (chi2 / 2.0 + f.ln(), visits.iter().map(|visit| visit.place.number()).collect())
         })
         .collect();
     scored.sort_by(|a, b| a.0.total_cmp(&b.0));
@@ -78,20 +93,22 @@ fn the_proof_finds_what_an_enumeration_finds() {
             let expected = best_by_enumeration(&exploration, &axioms, weights);
             let model =
                 PosteriorModel { metrical: Metrical::Likelihood, prior: MapPrior::Simplicity(weights) };
-            let search = PosteriorSearch { axioms, ..PosteriorSearch::new(model) };
-            let posterior = search.explain(&exploration).unwrap();
-            let best = &posterior.maps()[0];
-            let places: Vec<u32> = posterior.visits(best.node).iter().map(|visit| visit.place.0).collect();
-            assert!(posterior.report().proved, "{}", posterior.report());
-            assert!((best.cost.total() - expected[0].0).abs() < 1e-5, "{:?} {:?}", best.cost, expected[0]);
+            let search = proving(model).axioms(axioms);
+            let posterior = search.clone().explain(&exploration).unwrap();
+            let best = best(&posterior);
+            let places: Vec<u32> =
+                posterior.visits(best.node).iter().map(|visit| visit.place.number()).collect();
+            assert!(posterior.report().is_optimal, "{}", posterior.report());
+            assert!((cost(&best) - expected[0].0).abs() < 1e-5, "{best:?} {:?}", expected[0]);
             assert_eq!(places, expected[0].1);
 
             let all = all_of(search).explain(&exploration).unwrap();
-            assert_eq!(all.maps().len(), expected.len());
+            let all = all.maps(usize::MAX);
+            assert_eq!(all.len(), expected.len());
             // Layouts that are bent out of all measure have local minima.
             let sound = expected.iter().take_while(|(cost, _)| *cost < expected[0].0 + 100.0);
-            for (map, (cost, _)) in all.maps().iter().zip(sound) {
-                assert!((map.cost.total() - cost).abs() < 1e-4 * (1.0 + cost), "{:?} {cost}", map.cost);
+            for (map, (expected, _)) in all.iter().zip(sound) {
+                assert!((cost(map) - expected).abs() < 1e-4 * (1.0 + expected), "{map:?} {expected}");
             }
         }
     }
@@ -105,18 +122,22 @@ fn no_map_is_better_than_the_proved_one() {
         let exploration = snake_in_grid(3, 3, noise, seed);
         for prior in [MapPrior::Flat, MapPrior::Choices, MapPrior::Simplicity(Simplicity::default())] {
             for goal in [Goal::AnyMap, Goal::ClosedMap] {
-                let search = PosteriorSearch { goal, ..PosteriorSearch::new(evidence(prior)) };
-                let proved = search.explain(&exploration).unwrap();
+                let search = proving(evidence(prior)).goal(goal);
+                let proved = search.clone().explain(&exploration).unwrap();
                 let all = all_of(search).explain(&exploration).unwrap();
-                assert_eq!(all.report().open_bound, None);
+                let bound = |mapper: &Mapper| match mapper.report().proof.unwrap().open_bound {
+                    Some(Score::Nats(nats)) => Some(nats),
+                    _ => None,
+                };
+                assert_eq!(bound(&all), None);
                 assert!(proved.report().expanded <= all.report().expanded);
-                let (best, first) = (&proved.maps()[0], &all.maps()[0]);
-                assert!((best.cost.total() - first.cost.total()).abs() < 1e-6);
-                let bound = proved.report().open_bound.unwrap_or(f64::INFINITY);
-                assert!(bound >= first.cost.total() - 1e-6);
+                let (best, first) = (best(&proved), best(&all));
+                assert!((cost(&best) - cost(&first)).abs() < 1e-6);
+                assert!(bound(&proved).is_none_or(|bound| bound >= cost(&first) - 1e-6));
                 // The probability that was promised at least is what the map has among all.
-                let range = best.least_probability - 1e-9..=best.probability + 1e-9;
-                assert!(range.contains(&first.probability), "{range:?} {}", first.probability);
+                let (best, first) = (best.probable.unwrap(), first.probable.unwrap());
+                let range = best.at_least - 1e-9..=best.at_most + 1e-9;
+                assert!(range.contains(&first.at_most), "{range:?} {}", first.at_most);
             }
         }
     }
@@ -128,9 +149,9 @@ fn no_map_is_better_than_the_proved_one() {
 fn the_evidence_is_that_of_the_whole_pose_graph() {
     for (noise, tolerance) in [(0.1, 0.01), (1.0, 0.3)] {
         let exploration = snake_in_grid(3, 3, noise, 4);
-        let posterior = PosteriorSearch::new(evidence(MapPrior::Flat)).explain(&exploration).unwrap();
-        let best = &posterior.maps()[0];
-        let graph = posterior.pose_graph(best).unwrap();
+        let posterior = proving(evidence(MapPrior::Flat)).explain(&exploration).unwrap();
+        let best = best(&posterior);
+        let graph = posterior.pose_graph(&best).unwrap();
         let log_determinant = Marginals::new(&graph).unwrap().log_determinant();
         let free = graph.free_poses() as f64;
         let tau = std::f64::consts::TAU.ln();
@@ -144,9 +165,9 @@ fn the_evidence_is_that_of_the_whole_pose_graph() {
             - 1.5 * travels * tau;
         let peaks = 0.5 * informations - 1.5 * travels * tau;
         assert!(
-            (best.cost.total() - (peaks - evidence)).abs() < tolerance,
+            (cost(&best) - (peaks - evidence)).abs() < tolerance,
             "{} {}",
-            best.cost.total(),
+            cost(&best),
             peaks - evidence
         );
     }
@@ -156,23 +177,20 @@ fn the_evidence_is_that_of_the_whole_pose_graph() {
 fn with_exact_odometry_the_true_map_wins() {
     let exploration = snake_in_grid(4, 4, 0.05, 1);
     let model = PosteriorModel::evidence(&exploration).unwrap();
-    let posterior = PosteriorSearch::new(model).explain(&exploration).unwrap();
-    assert_eq!((posterior.maps()[0].measure.f3, posterior.report().ties), (16, 1));
-    assert!(posterior.maps()[0].least_probability > 0.99 || posterior.report().rest > 0.01);
+    let mapper = proving(model).explain(&exploration).unwrap();
+    let best = best(&mapper);
+    assert_eq!((best.measure.places, mapper.report().finals.optimal), (16, 1));
+    let rest = mapper.report().proof.unwrap().rest.unwrap();
+    assert!(best.probable.unwrap().at_least > 0.99 || rest > 0.01);
 }
 
 #[test]
 fn the_thesiss_search_selects_the_true_map() {
     let exploration = snake_in_grid(4, 4, 0.5, 1);
-    let search = PosteriorSearch {
-        axioms: planar(),
-        order: PosteriorOrder::BestFirst,
-        goal: Goal::ClosedMap,
-        ..PosteriorSearch::new(PosteriorModel::THESIS)
-    };
-    let posterior = search.explain(&exploration).unwrap();
-    assert_eq!(posterior.maps()[0].measure.f3, 16);
-    assert!(posterior.maps()[0].closed);
+    let search = proving(PosteriorModel::THESIS).axioms(planar());
+    let mapper = search.order(Order::BestFirst).goal(Goal::ClosedMap).explain(&exploration).unwrap();
+    assert_eq!(best(&mapper).measure.places, 16);
+    assert!(best(&mapper).closed);
 }
 
 /// Where headings are unknown the linear model is worthless: layouts coil up as they please. What is proved
@@ -181,12 +199,12 @@ fn the_thesiss_search_selects_the_true_map() {
 fn a_proof_does_not_rely_on_headings_that_nobody_knows() {
     let exploration =
         Exploration::from_ron(include_str!("../../../../fixtures/heading-unknown.ron")).unwrap();
-    let search = PosteriorSearch::new(PosteriorModel::evidence(&exploration).unwrap());
-    let proved = search.explain(&exploration).unwrap();
+    let search = proving(PosteriorModel::evidence(&exploration).unwrap());
+    let proved = search.clone().explain(&exploration).unwrap();
     let all = all_of(search).explain(&exploration).unwrap();
-    assert_eq!(all.report().open_bound, None);
-    let (best, first) = (proved.maps()[0].cost.total(), all.maps()[0].cost.total());
-    assert!(!proved.report().proved || best - first < 1e-4, "{} {first}", proved.report());
+    assert_eq!(all.report().proof.unwrap().open_bound, None);
+    let (best, first) = (cost(&best(&proved)), cost(&best(&all)));
+    assert!(!proved.report().is_optimal || best - first < 1e-4, "{} {first}", proved.report());
 }
 
 /// The true map, whatever the ends are called and however few of them have bearings.
@@ -200,12 +218,10 @@ fn a_few_bearings_are_enough() {
         named.bearings = lone.collect();
     }
     let exploration = Exploration::new(stars, whole.start(), whole.travels().to_vec()).unwrap();
-    let search = PosteriorSearch {
-        axioms: planar(),
-        ..PosteriorSearch::new(PosteriorModel::evidence(&whole).unwrap())
-    };
-    let [full, sparse] = [whole, exploration].map(|exploration| search.explain(&exploration).unwrap());
-    let [full, sparse] = [&full, &sparse].map(|posterior| posterior.visits(posterior.maps()[0].node));
+    let search = proving(PosteriorModel::evidence(&whole).unwrap()).axioms(planar());
+    let [full, sparse] =
+        [whole, exploration].map(|exploration| search.clone().explain(&exploration).unwrap());
+    let [full, sparse] = [&full, &sparse].map(|mapper| mapper.visits(best(mapper).node));
     assert_eq!(full, sparse);
 }
 
@@ -217,13 +233,10 @@ fn what_cannot_be_laid_out_is_left_out() {
         let mut travels = sound.travels().to_vec();
         travels[4].odometry.as_mut().unwrap().x = x;
         let exploration = Exploration::new(sound.star_types().to_vec(), sound.start(), travels).unwrap();
-        for order in
-            [PosteriorOrder::BestFirst, PosteriorOrder::Proof(Proving { best: usize::MAX, rest: 1.0 })]
-        {
-            let search =
-                PosteriorSearch { axioms: planar(), order, ..PosteriorSearch::new(PosteriorModel::THESIS) };
+        for order in [Order::BreadthFirst, Order::BestFirst, Order::Cyclic, Order::Proof] {
+            let search = all_of(proving(PosteriorModel::THESIS)).axioms(planar()).order(order);
             match search.explain(&exploration) {
-                Ok(found) => assert!(!(found.report().unsolvable && found.report().proved)),
+                Ok(found) => assert!(!(found.report().proof.unwrap().unsolvable && found.report().is_optimal)),
                 Err(problem) => assert!(problem.to_string().contains("out of all proportion"), "{problem}"),
             }
         }
@@ -234,6 +247,6 @@ fn what_cannot_be_laid_out_is_left_out() {
 fn a_travel_without_odometry_is_named() {
     let world = grid(2, 2, 8.0).unwrap();
     let exploration = world.explore(&world.route_through(&snake(2, 2)).unwrap()).unwrap();
-    let problem = PosteriorSearch::new(PosteriorModel::THESIS).explain(&exploration).unwrap_err();
+    let problem = proving(PosteriorModel::THESIS).explain(&exploration).unwrap_err();
     assert_eq!(problem.to_string(), "travel 1 has no odometry; the posterior needs it for every travel");
 }

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeSet;
 
-use hssh_search::{Cursor, Goal, Mapper, StopReason, Strategy};
+use hssh_search::{Cursor, Goal, Mapper, Order, Score, StopReason};
 use hssh_topology::{Axioms, GenusRank, MapSketch, Measure, Preference};
 use proptest::prelude::*;
 
@@ -20,11 +20,11 @@ proptest! {
     #[test]
     fn a_proof_finds_exactly_the_optima((exploration, axioms) in case(2000)) {
         for preference in RANKS.map(|genus| Preference { genus }) {
-            let search = |strategy| {
+            let search = |(order, goal)| {
                 let builder = Mapper::builder().axioms(axioms).preference(preference);
-                builder.strategy(strategy).explain(&exploration).unwrap()
+                builder.order(order).goal(goal).explain(&exploration).unwrap()
             };
-            let all = search(Strategy::BreadthFirst);
+            let all = search((Order::BreadthFirst, Goal::AnyMap));
             for goal in [Goal::AnyMap, Goal::ClosedMap] {
                 let accepted: Vec<_> = all
                     .maps(usize::MAX)
@@ -39,19 +39,22 @@ proptest! {
                     .map(|map| sketch(&all, map.node))
                     .collect();
 
-                let proof = search(Strategy::Proof(goal));
+                let proof = search((Order::Proof, goal));
                 let found = sketches(&proof);
                 prop_assert_eq!(found.len(), optima.len());
                 prop_assert_eq!(text(&found), text(&optima));
 
                 let report = proof.report();
-                let certificate = report.certificate.unwrap();
+                let certificate = report.proof.unwrap();
                 let complete = if best.is_some() { StopReason::Proved } else { StopReason::Exhausted };
                 prop_assert_eq!(report.stop, complete);
                 prop_assert!(certificate.proved);
-                let rank = |measure: Option<Measure>| measure.map(|measure| preference.rank(measure));
-                prop_assert_eq!(rank(certificate.best), rank(best));
-                if let (Some(open), Some(best)) = (rank(certificate.open_bound), rank(best)) {
+                let rank = |score: Option<Score>| match score {
+                    Some(Score::Measure(measure)) => Some(preference.rank(measure)),
+                    _ => None,
+                };
+                prop_assert_eq!(rank(certificate.best), best.map(|best| preference.rank(best)));
+                if let (Some(open), Some(best)) = (rank(certificate.open_bound), rank(best.map(Score::Measure))) {
                     prop_assert!(open > best);
                 }
                 prop_assert!(report.nodes <= all.report().nodes);
@@ -71,10 +74,10 @@ proptest! {
         for last in last_nodes(&mapper) {
             let measure = Measure::of(&at(last));
             for node in tree.branch(last) {
-                let bound = bounds[node.0 as usize];
-                let holds = bound.f1 <= measure.f1
-                    && bound.f2 <= measure.f2
-                    && bound.f3 <= measure.f3
+                let bound = bounds[node.index()];
+                let holds = bound.undetermined_boundaries <= measure.undetermined_boundaries
+                    && bound.paths <= measure.paths
+                    && bound.places <= measure.places
                     && bound.genus <= measure.genus;
                 prop_assert!(holds, "{} after {} travels bounds {}", bound, tree.depth(node), measure);
             }
@@ -87,7 +90,7 @@ proptest! {
         let all = breadth_first(&exploration, axioms);
         let maps = all.maps(usize::MAX);
         for goal in [Goal::AnyMap, Goal::ClosedMap] {
-            let builder = Mapper::builder().axioms(axioms).strategy(Strategy::BestFirst(goal));
+            let builder = Mapper::builder().axioms(axioms).order(Order::BestFirst).goal(goal);
             let mapper = builder.explain(&exploration).unwrap();
             let there_is_one = maps.iter().any(|map| map.closed || goal == Goal::AnyMap);
             let expected = if there_is_one { StopReason::Found } else { StopReason::Exhausted };
@@ -114,7 +117,7 @@ fn what_cannot_close_is_turned_down_and_counted() {
     for travels in 1..=whole.travels().len().min(6) {
         let exploration = whole.prefix(travels);
         let all = breadth_first(&exploration, Axioms::default()).maps(usize::MAX);
-        let builder = Mapper::builder().strategy(Strategy::Proof(Goal::ClosedMap));
+        let builder = Mapper::builder().order(Order::Proof).goal(Goal::ClosedMap);
         let mapper = builder.explain(&exploration).unwrap();
         let closed = all.iter().any(|map| map.closed);
         assert_eq!(mapper.report().stop == StopReason::Proved, closed, "{travels} travels");

@@ -1,19 +1,21 @@
 //! The number of threads changes nothing but the time.
 
 use hssh_causal::Exploration;
-use hssh_search::{Goal, Limits, Mapper, Report, Strategy};
+use hssh_search::{Goal, Limits, Mapper, Order, Report};
 use hssh_topology::Axioms;
 use hssh_world::{snake, thesis_3x4};
 use proptest::prelude::*;
 
-use crate::cases::{case, grid_walk, planar, sketches};
+use crate::cases::{Way, case, grid_walk, planar, sketches};
 
-pub(crate) const STRATEGIES: [Strategy; 5] = [
-    Strategy::BreadthFirst,
-    Strategy::BestFirst(Goal::AnyMap),
-    Strategy::BestFirst(Goal::ClosedMap),
-    Strategy::Proof(Goal::AnyMap),
-    Strategy::Proof(Goal::ClosedMap),
+pub(crate) const STRATEGIES: [Way; 7] = [
+    (Order::BreadthFirst, Goal::AnyMap),
+    (Order::BestFirst, Goal::AnyMap),
+    (Order::BestFirst, Goal::ClosedMap),
+    (Order::Cyclic, Goal::AnyMap),
+    (Order::Cyclic, Goal::ClosedMap),
+    (Order::Proof, Goal::AnyMap),
+    (Order::Proof, Goal::ClosedMap),
 ];
 
 fn timeless(report: Report) -> Report {
@@ -30,7 +32,7 @@ fn threads_change_nothing(exploration: &Exploration, axioms: Axioms, limits: Lim
 
     for strategy in STRATEGIES {
         let search = |threads| {
-            let builder = Mapper::builder().axioms(axioms).strategy(strategy).limits(limits);
+            let builder = Mapper::builder().axioms(axioms).order(strategy.0).goal(strategy.1).limits(limits);
             builder.threads(threads).explain(exploration).unwrap()
         };
         let alone = search(1);
@@ -43,7 +45,7 @@ fn threads_change_nothing(exploration: &Exploration, axioms: Axioms, limits: Lim
             assert_eq!(tree.len(), other.len());
             for node in tree.nodes() {
                 assert_eq!(tree.parent(node), other.parent(node));
-                assert_eq!(tree.derived(node), other.derived(node));
+                assert_eq!(tree.derivation(node), other.derivation(node));
                 assert_eq!(tree.outcome(node), other.outcome(node));
             }
         }

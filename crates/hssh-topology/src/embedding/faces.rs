@@ -1,6 +1,7 @@
 //! Faces of an embedded graph, traced dart by dart (Definition 3.1).
 
-use super::{Components, Counts, Dart, EmbeddedGraph, FaceLabel, Neighbors};
+use super::{Components, Counts, EmbeddedGraph, Neighbors, PendingEdge};
+use crate::ids::{Dart, FaceLabel};
 
 /// The faces of an embedded graph: each a closed walk that keeps the wall to its right.
 #[derive(Clone, PartialEq, Eq, Debug)]
@@ -47,7 +48,7 @@ impl EmbeddedGraph {
     pub fn faces(&self) -> Faces {
         let mut faces = Faces { darts: Vec::with_capacity(self.darts.len()), ends: Vec::new() };
         let mut seen = vec![false; self.darts.len()];
-        for start in (0..self.dart_count()).map(Dart) {
+        for start in (0..self.dart_count()).map(Dart::new) {
             let mut next = (!self.is_pending(start) && !seen[start.index()]).then_some(start);
             while let Some(dart) = next {
                 seen[dart.index()] = true;
@@ -70,7 +71,7 @@ impl EmbeddedGraph {
             self.components.push();
         }
         self.counts.components = self.vertex_count();
-        for dart in (0..self.dart_count()).map(Dart) {
+        for dart in (0..self.dart_count()).map(Dart::new) {
             match self.rev(dart) {
                 None => {
                     self.counts.pending += 1;
@@ -78,7 +79,7 @@ impl EmbeddedGraph {
                 }
                 Some(rev) if dart < rev => {
                     self.counts.edges += 1;
-                    let joined = self.components.unite(self.source(dart).0, self.source(rev).0);
+                    let joined = self.components.unite(self.source(dart).number(), self.source(rev).number());
                     self.counts.components -= u32::from(joined.is_some());
                 }
                 Some(_) => {}
@@ -97,7 +98,7 @@ impl EmbeddedGraph {
     fn trace_walks(&mut self) -> u32 {
         let mut walks = 0;
         let mut seen = vec![false; self.darts.len()];
-        for start in (0..self.dart_count()).map(Dart) {
+        for start in (0..self.dart_count()).map(Dart::new) {
             if seen[start.index()] {
                 continue;
             }
@@ -107,7 +108,7 @@ impl EmbeddedGraph {
                 if self.is_pending(dart) {
                     let (first, last) = first_and_last.unwrap_or((dart, dart));
                     self.tie(last, dart);
-                    self.darts[dart.index()].face = FaceLabel(walks);
+                    self.darts[dart.index()].face = FaceLabel::new(walks);
                     first_and_last = Some((first, dart));
                 }
                 // An edge leads to its other end; either way the walk goes on counterclockwise.
@@ -132,7 +133,7 @@ impl EmbeddedGraph {
     /// # Panics
     /// If an invariant is broken: for tests and fuzzing.
     pub fn sanity_check(&self) {
-        for dart in (0..self.dart_count()).map(Dart) {
+        for dart in (0..self.dart_count()).map(Dart::new) {
             assert_eq!(self.succ(self.pred(dart)), dart);
             if let Some(rev) = self.rev(dart) {
                 assert_eq!(self.rev(rev), Some(dart));
@@ -147,13 +148,13 @@ impl EmbeddedGraph {
         let next_face = self.counts.next_face;
         assert_eq!(self.counts, Counts { next_face, ..recounted.counts });
         assert_eq!(self.faces().len() as u32, self.face_count());
-        let pending: Vec<Dart> = self.pending_edges().collect();
+        let pending: Vec<PendingEdge> = self.pending_edges().collect();
         assert_eq!(pending, recounted.pending_edges().collect::<Vec<_>>());
-        for &dart in &pending {
-            let along = |graph: &EmbeddedGraph| graph.pending_edges_of_face(dart).collect::<Vec<_>>();
+        for &edge in &pending {
+            let along = |graph: &EmbeddedGraph| graph.pending_edges_of_face(edge).collect::<Vec<_>>();
             assert_eq!(along(self), along(&recounted));
-            let label = self.face_of_pending(dart);
-            let same_label = pending.iter().filter(|&&other| self.face_of_pending(other) == label);
+            let label = self.face_of(edge);
+            let same_label = pending.iter().filter(|&&other| self.face_of(other) == label);
             assert_eq!(same_label.count(), along(self).len());
         }
     }

@@ -1,6 +1,7 @@
 //! Linking two pending edges: how faces split and merge (section 3.3).
 
-use super::{Counts, Dart, EmbeddedGraph, FaceLabel, Neighbors};
+use super::{Counts, EmbeddedGraph, Neighbors, PendingEdge};
+use crate::ids::{Dart, FaceLabel};
 
 /// What [`EmbeddedGraph::link`] did, so that [`EmbeddedGraph::unlink`] can take it back.
 #[derive(Clone, Debug)]
@@ -29,10 +30,11 @@ impl EmbeddedGraph {
     /// component it merges them and adds a handle; between two components it merges two faces and
     /// keeps the genus. Takes time proportional to the pending edges of the smaller part.
     ///
-    /// # Panics
-    /// If one of the two is not pending, or if they are the same.
-    pub fn link(&mut self, a: Dart, b: Dart) -> Link {
-        assert!(a != b && self.is_pending(a) && self.is_pending(b), "only two pending edges are linked");
+    /// The two are different and pending in this graph.
+    pub fn link(&mut self, a: PendingEdge, b: PendingEdge) -> Link {
+        let (a, b) = (a.dart(), b.dart());
+        debug_assert!(a != b, "an edge has two ends");
+        debug_assert!(self.is_pending(a) && self.is_pending(b), "a stale pending edge");
         let counts = self.counts;
         let (v, w) = (self.source(a), self.source(b));
         self.counts.isolated -= u32::from(self.is_isolated(v));
@@ -43,7 +45,7 @@ impl EmbeddedGraph {
         } else {
             self.merge_faces(a, b)
         };
-        let joined = self.components.unite(v.0, w.0);
+        let joined = self.components.unite(v.number(), w.number());
         self.counts.components -= u32::from(joined.is_some());
         self.counts.edges += 1;
         self.counts.pending -= 2;

@@ -10,40 +10,7 @@ use components::Components;
 pub use faces::Faces;
 pub use link::Link;
 
-use serde::{Deserialize, Serialize};
-
-/// A vertex of an [`EmbeddedGraph`].
-#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug, Serialize, Deserialize)]
-#[serde(transparent)]
-pub struct Vertex(pub u32);
-
-/// A directed edge leaving its source: an element of T(E), or a pending edge.
-#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug, Serialize, Deserialize)]
-#[serde(transparent)]
-pub struct Dart(pub u32);
-
-/// A label that two pending edges share if and only if they lie in the same face.
-///
-/// Labels are not consecutive, and linking may change them.
-#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug, Serialize, Deserialize)]
-#[serde(transparent)]
-pub struct FaceLabel(pub u32);
-
-impl Vertex {
-    /// The vertex as an index.
-    #[must_use]
-    pub fn index(self) -> usize {
-        self.0 as usize
-    }
-}
-
-impl Dart {
-    /// The dart as an index.
-    #[must_use]
-    pub fn index(self) -> usize {
-        self.0 as usize
-    }
-}
+use crate::ids::{Dart, FaceLabel, Vertex};
 
 /// A graph with a clockwise order of the edges around each vertex; parallel edges and loops allowed.
 ///
@@ -55,13 +22,14 @@ impl Dart {
 /// the face that each pending edge lies in are carried along, not recounted.
 ///
 /// ```
-/// use hssh_topology::{Dart, EmbeddedGraph};
+/// use hssh_topology::{EmbeddedGraph, PendingEdge};
 ///
 /// let mut graph = EmbeddedGraph::new();
 /// graph.add_vertex(4); // one vertex, four pending edges: darts 0, 1, 2, 3 clockwise
-/// graph.link(Dart(0), Dart(2)); // a loop, which parts the other two
-/// assert_ne!(graph.face_of_pending(Dart(1)), graph.face_of_pending(Dart(3)));
-/// graph.link(Dart(1), Dart(3)); // crosses it
+/// let pending: Vec<PendingEdge> = graph.pending_edges().collect();
+/// graph.link(pending[0], pending[2]); // a loop, which parts the other two
+/// assert_ne!(graph.face_of(pending[1]), graph.face_of(pending[3]));
+/// graph.link(pending[1], pending[3]); // crosses it
 /// assert_eq!((graph.face_count(), graph.genus()), (1, 1)); // the torus
 /// ```
 #[derive(Clone, Debug)]
@@ -75,6 +43,19 @@ pub struct EmbeddedGraph {
     counts: Counts,
     /// The first and the last pending edge in ascending order.
     pending_ends: Option<(Dart, Dart)>,
+}
+
+/// A dart that no edge is at: what can be linked. It comes from a graph, which is asked for it
+/// ([`EmbeddedGraph::pending`]), and is stale once that graph links it.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
+pub struct PendingEdge(Dart);
+
+impl PendingEdge {
+    /// The dart.
+    #[must_use]
+    pub fn dart(self) -> Dart {
+        self.0
+    }
 }
 
 /// Everything that is known of one dart.
@@ -117,10 +98,10 @@ struct Counts {
 pub enum EmbeddingError {
     /// A link names a dart that no vertex has.
     #[error("dart {0} does not exist: the vertices have {1} darts together")]
-    NoSuchDart(u32, u32),
+    NoSuchDart(Dart, u32),
     /// A dart is linked twice, or to itself.
     #[error("dart {0} is linked twice or to itself: a dart has one other end")]
-    LinkedTwice(u32),
+    LinkedTwice(Dart),
 }
 
 impl Default for EmbeddedGraph {
@@ -159,10 +140,10 @@ impl EmbeddedGraph {
         for (a, b) in links {
             for dart in [a, b] {
                 if dart.index() >= graph.darts.len() {
-                    return Err(EmbeddingError::NoSuchDart(dart.0, graph.darts.len() as u32));
+                    return Err(EmbeddingError::NoSuchDart(dart, graph.darts.len() as u32));
                 }
                 if a == b || !graph.is_pending(dart) {
-                    return Err(EmbeddingError::LinkedTwice(dart.0));
+                    return Err(EmbeddingError::LinkedTwice(dart));
                 }
             }
             graph.join(a, b);
@@ -176,7 +157,7 @@ impl EmbeddedGraph {
         let vertex = self.push_vertex(degree);
         let face = self.fresh_face();
         let (first, end) = self.span(vertex);
-        for dart in (first..end).map(Dart) {
+        for dart in (first..end).map(Dart::new) {
             let in_face = Neighbors { before: self.succ(dart), after: self.pred(dart) };
             let record = &mut self.darts[dart.index()];
             (record.face, record.in_face) = (face, in_face);
@@ -195,10 +176,10 @@ impl EmbeddedGraph {
     /// # Panics
     /// If there is no vertex, or if the last one has an edge.
     pub fn remove_last_vertex(&mut self) {
-        let vertex = Vertex(self.vertex_count().checked_sub(1).expect("there is a vertex to remove"));
+        let vertex = Vertex::new(self.vertex_count().checked_sub(1).expect("there is a vertex to remove"));
         assert!(self.is_isolated(vertex), "a vertex that is removed has no edge");
         let (first, end) = self.span(vertex);
-        for dart in (first..end).rev().map(Dart) {
+        for dart in (first..end).rev().map(Dart::new) {
             self.leave_order(dart);
         }
         self.darts.truncate(first as usize);
@@ -213,14 +194,14 @@ impl EmbeddedGraph {
     }
 
     fn push_vertex(&mut self, degree: u32) -> Vertex {
-        let vertex = Vertex(self.vertex_count());
+        let vertex = Vertex::new(self.vertex_count());
         let first = self.darts.len() as u32;
         self.darts.extend((first..first + degree).map(|dart| {
-            let alone = Neighbors { before: Dart(dart), after: Dart(dart) };
+            let alone = Neighbors { before: Dart::new(dart), after: Dart::new(dart) };
             DartRecord {
                 source: vertex,
-                rev: Dart(dart),
-                face: FaceLabel(0),
+                rev: Dart::new(dart),
+                face: FaceLabel::new(0),
                 in_face: alone,
                 in_order: alone,
             }
@@ -241,7 +222,7 @@ impl EmbeddedGraph {
 
     fn fresh_face(&mut self) -> FaceLabel {
         self.counts.next_face += 1;
-        FaceLabel(self.counts.next_face - 1)
+        FaceLabel::new(self.counts.next_face - 1)
     }
 
     /// The darts of a vertex, as a range of numbers.
@@ -295,7 +276,7 @@ impl EmbeddedGraph {
 
     /// The vertices, in order of creation.
     pub fn vertices(&self) -> impl ExactSizeIterator<Item = Vertex> + use<> {
-        (0..self.vertex_count()).map(Vertex)
+        (0..self.vertex_count()).map(Vertex::new)
     }
 
     /// The vertices without edges: I.
@@ -350,54 +331,57 @@ impl EmbeddedGraph {
     #[must_use]
     pub fn succ(&self, dart: Dart) -> Dart {
         let (first, end) = self.span(self.source(dart));
-        Dart(if dart.0 + 1 == end { first } else { dart.0 + 1 })
+        Dart::new(if dart.number() + 1 == end { first } else { dart.number() + 1 })
     }
 
     /// The next dart or pending edge counterclockwise around the source.
     #[must_use]
     pub fn pred(&self, dart: Dart) -> Dart {
         let (first, end) = self.span(self.source(dart));
-        Dart(if dart.0 == first { end - 1 } else { dart.0 - 1 })
+        Dart::new(if dart.number() == first { end - 1 } else { dart.number() - 1 })
+    }
+
+    /// The dart as a pending edge, if it is one.
+    #[must_use]
+    pub fn pending(&self, dart: Dart) -> Option<PendingEdge> {
+        self.is_pending(dart).then_some(PendingEdge(dart))
     }
 
     /// The face that a pending edge lies in (Definition 3.2).
-    ///
-    /// # Panics
-    /// If the dart is not pending.
     #[must_use]
-    pub fn face_of_pending(&self, dart: Dart) -> FaceLabel {
-        assert!(self.is_pending(dart), "an edge has a face on each side, a pending edge has one");
-        self.darts[dart.index()].face
+    pub fn face_of(&self, edge: PendingEdge) -> FaceLabel {
+        debug_assert!(self.is_pending(edge.0), "a stale pending edge");
+        self.darts[edge.0.index()].face
     }
 
     /// All pending edges, ascending.
-    pub fn pending_edges(&self) -> impl Iterator<Item = Dart> + '_ {
+    pub fn pending_edges(&self) -> impl Iterator<Item = PendingEdge> + '_ {
         let mut next = self.pending_ends.map(|(first, _)| first);
         std::iter::from_fn(move || {
             let dart = next?;
             let after = self.darts[dart.index()].in_order.after;
             next = (after != dart).then_some(after);
-            Some(dart)
+            Some(PendingEdge(dart))
         })
     }
 
-    /// The pending edges of the face that `dart` lies in, from `dart` on, as a walk along the face
+    /// The pending edges of the face that `edge` lies in, from `edge` on, as a walk along the face
     /// meets them.
-    pub fn pending_edges_of_face(&self, dart: Dart) -> impl Iterator<Item = Dart> + '_ {
-        debug_assert!(self.is_pending(dart));
-        let mut next = Some(dart);
+    pub fn pending_edges_of_face(&self, edge: PendingEdge) -> impl Iterator<Item = PendingEdge> + '_ {
+        debug_assert!(self.is_pending(edge.0), "a stale pending edge");
+        let mut next = Some(edge.0);
         std::iter::from_fn(move || {
             let current = next?;
             let after = self.darts[current.index()].in_face.after;
-            next = (after != dart).then_some(after);
-            Some(current)
+            next = (after != edge.0).then_some(after);
+            Some(PendingEdge(current))
         })
     }
 
     /// Whether two vertices lie in the same component.
     #[must_use]
     pub fn are_connected(&self, a: Vertex, b: Vertex) -> bool {
-        self.components.root(a.0) == self.components.root(b.0)
+        self.components.root(a.number()) == self.components.root(b.number())
     }
 
     fn append_to_order(&mut self, dart: Dart) {
@@ -453,7 +437,7 @@ impl Iterator for DartRange {
     fn next(&mut self) -> Option<Dart> {
         (self.next < self.end).then(|| {
             self.next += 1;
-            Dart(self.next - 1)
+            Dart::new(self.next - 1)
         })
     }
 

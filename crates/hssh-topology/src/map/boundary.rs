@@ -6,7 +6,8 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::{Direction, MapOlp, PathId, PlaceId, TopologicalMap};
+use super::{Direction, PlaceRecord, TopologicalMap};
+use crate::ids::{MapOlp, Olp, PathId, PlaceId};
 
 /// How a place lies to a path, looking downstream.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Serialize, Deserialize)]
@@ -214,15 +215,15 @@ impl TopologicalMap {
     /// Whoever leaves the place of `exit` by `exit` now comes by the places of `reached`: they are
     /// right or left of every other path through that place.
     fn see_along(&mut self, exit: MapOlp, reached: PathId) {
+        let PlaceRecord { first, .. } = self.places[self.place(exit).index()];
+        let local = |olp: MapOlp| Olp::new(olp.number() - first);
         let olps = self.olps_of(self.place(exit));
         let degree = olps.len() as u32;
         for downstream in olps {
             let record = self.olps[downstream.index()];
             let is_other_path = exit != downstream && exit != record.opposite;
             if record.direction == Direction::Downstream && is_other_path {
-                let clockwise = |to: MapOlp| {
-                    if to >= downstream { to.0 - downstream.0 } else { to.0 + degree - downstream.0 }
-                };
+                let clockwise = |to: MapOlp| local(downstream).turn_to(local(to), degree);
                 let is_right = clockwise(exit) < clockwise(record.opposite);
                 let side = if is_right { Set::Right } else { Set::Left };
                 self.boundaries.gain(record.path, side, reached);

@@ -5,44 +5,15 @@ mod path;
 mod region;
 
 pub use boundary::{BoundaryRelation, PathSides};
-pub use path::{Course, Direction, PathId};
+pub use path::{Course, Direction};
 pub use region::Region;
 
 use boundary::Boundaries;
 use path::{Joined, PathRecord};
-use serde::{Deserialize, Serialize};
 
-use crate::catalog::StarId;
-use crate::embedding::{Dart, EmbeddedGraph, Link};
-use crate::star::{Olp, Star};
-
-/// A place of a map; also the vertex of that number in its embedded graph.
-#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug, Serialize, Deserialize)]
-#[serde(transparent)]
-pub struct PlaceId(pub u32);
-
-impl PlaceId {
-    /// The place as an index.
-    #[must_use]
-    pub fn index(self) -> usize {
-        self.0 as usize
-    }
-}
-
-/// An oriented local path *of a map*: one end in the star of one place.
-///
-/// Numbered place by place in order of creation, clockwise within a place.
-#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug, Serialize, Deserialize)]
-#[serde(transparent)]
-pub struct MapOlp(pub u32);
-
-impl MapOlp {
-    /// The oriented local path as an index.
-    #[must_use]
-    pub fn index(self) -> usize {
-        self.0 as usize
-    }
-}
+use crate::embedding::{EmbeddedGraph, Link, PendingEdge};
+use crate::ids::{Dart, MapOlp, Olp, PathId, PlaceId, StarId};
+use crate::star::Star;
 
 /// A topological map: places with stars, links between gateways, pending gateways and paths.
 ///
@@ -60,6 +31,28 @@ pub struct TopologicalMap {
     boundaries: Boundaries,
     tally: Tally,
     history: Vec<Change>,
+}
+
+/// A gateway that is not linked: what can be. It comes from a map, which is asked for it
+/// ([`TopologicalMap::pending`]), and is stale once that map links it or takes it back.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
+pub struct PendingGateway {
+    olp: MapOlp,
+    edge: PendingEdge,
+}
+
+impl PendingGateway {
+    /// The gateway.
+    #[must_use]
+    pub fn olp(self) -> MapOlp {
+        self.olp
+    }
+
+    /// The pending edge that stands for it in the embedded graph.
+    #[must_use]
+    pub fn edge(self) -> PendingEdge {
+        self.edge
+    }
 }
 
 #[derive(Clone, Copy, Debug)]
@@ -111,7 +104,7 @@ impl TopologicalMap {
 
     /// Adds a place with that star, its gateways pending, each of its local paths a path of its own.
     pub fn add_place(&mut self, id: StarId, star: &Star) -> PlaceId {
-        let place = PlaceId(self.places.len() as u32);
+        let place = PlaceId::new(self.places.len() as u32);
         let first = self.olps.len() as u32;
         self.history.push(Change::Place { tally: self.tally });
         self.places.push(PlaceRecord { star: id, first });
@@ -120,8 +113,8 @@ impl TopologicalMap {
         let mut dart = self.graph.dart_count();
         self.graph.add_vertex(star.gateways().count() as u32);
         for olp in star.olps() {
-            let here = MapOlp(first + olp.0);
-            let opposite = MapOlp(first + star.opposite(olp).0);
+            let here = MapOlp::new(first + olp.number());
+            let opposite = MapOlp::new(first + star.opposite(olp).number());
             let is_new_path = here < opposite;
             let (path, direction) = if is_new_path {
                 let ends = [olp, star.opposite(olp)];
@@ -133,7 +126,7 @@ impl TopologicalMap {
             let travelable = star.is_travelable(olp).then(|| {
                 self.gateways.push(here);
                 dart += 1;
-                Dart(dart - 1)
+                Dart::new(dart - 1)
             });
             self.tally.closed_ends += u32::from(travelable.is_none());
             self.tally.loose_gateways += u32::from(travelable.is_some());
@@ -143,7 +136,7 @@ impl TopologicalMap {
     }
 
     fn add_path(&mut self, place: PlaceId, pending_ends: u32) -> PathId {
-        let path = PathId(self.paths.len() as u32);
+        let path = PathId::new(self.paths.len() as u32);
         self.paths.push(PathRecord::single(pending_ends));
         self.boundaries.push_path(place);
         self.tally.paths += 1;
@@ -153,14 +146,11 @@ impl TopologicalMap {
 
     /// Links two pending gateways: they become one edge, and their two paths one path.
     ///
-    /// # Panics
-    /// If one of them is no pending gateway, or if they are the same.
-    pub fn link(&mut self, a: MapOlp, b: MapOlp) {
-        let (Some(dart_a), Some(dart_b)) = (self.dart(a), self.dart(b)) else {
-            panic!("a closed end cannot be linked");
-        };
-        let pending = self.is_pending(a) && self.is_pending(b) && a != b;
-        assert!(pending, "only two different pending gateways are linked");
+    /// The two are different and pending in this map.
+    pub fn link(&mut self, a: PendingGateway, b: PendingGateway) {
+        let (edges, a, b) = ((a.edge, b.edge), a.olp, b.olp);
+        debug_assert!(a != b, "a link has two ends");
+        debug_assert!(self.is_pending(a) && self.is_pending(b), "a stale pending gateway");
         let tally = self.tally;
         let boundaries = self.boundaries.mark();
         if self.path(a) == self.path(b) {
@@ -170,7 +160,7 @@ impl TopologicalMap {
             self.see_path_beyond(b, self.path(a));
         }
 
-        let link = self.graph.link(dart_a, dart_b);
+        let link = self.graph.link(edges.0, edges.1);
         let joined = self.join_paths(a, b);
         self.olps[a.index()].link = b;
         self.olps[b.index()].link = a;
@@ -274,7 +264,7 @@ impl TopologicalMap {
 
     /// The places in order of creation.
     pub fn places(&self) -> impl ExactSizeIterator<Item = PlaceId> + use<> {
-        (0..self.place_count()).map(PlaceId)
+        (0..self.place_count()).map(PlaceId::new)
     }
 
     /// Which star a place has.
@@ -283,8 +273,7 @@ impl TopologicalMap {
         self.places[place.index()].star
     }
 
-    /// The number of oriented local paths of all places; the first one of the next place has this
-    /// number.
+    /// The number of oriented local paths of all places.
     #[must_use]
     pub fn olp_count(&self) -> u32 {
         self.olps.len() as u32
@@ -293,19 +282,25 @@ impl TopologicalMap {
     /// The oriented local paths of a place, clockwise.
     pub fn olps_of(&self, place: PlaceId) -> impl ExactSizeIterator<Item = MapOlp> + use<> {
         let end = self.places.get(place.index() + 1).map_or(self.olps.len() as u32, |next| next.first);
-        (self.places[place.index()].first as usize..end as usize).map(|olp| MapOlp(olp as u32))
+        (self.places[place.index()].first as usize..end as usize).map(|olp| MapOlp::new(olp as u32))
     }
 
     /// An oriented local path of a place's star.
     #[must_use]
     pub fn olp(&self, place: PlaceId, olp: Olp) -> MapOlp {
-        MapOlp(self.places[place.index()].first + olp.0)
+        MapOlp::new(self.places[place.index()].first + olp.number())
+    }
+
+    /// An oriented local path of the place that [`add_place`](Self::add_place) would add now.
+    #[must_use]
+    pub fn olp_of_next_place(&self, olp: Olp) -> MapOlp {
+        MapOlp::new(self.olp_count() + olp.number())
     }
 
     /// Which oriented local path of its star it is.
     #[must_use]
     pub fn local(&self, olp: MapOlp) -> Olp {
-        Olp(olp.0 - self.places[self.place(olp).index()].first)
+        Olp::new(olp.number() - self.places[self.place(olp).index()].first)
     }
 
     /// The place whose star it belongs to.
@@ -345,27 +340,27 @@ impl TopologicalMap {
         self.gateways[dart.index()]
     }
 
+    /// The oriented local path as a pending gateway, if it is one.
+    #[must_use]
+    pub fn pending(&self, olp: MapOlp) -> Option<PendingGateway> {
+        let edge = self.graph.pending(self.dart(olp)?)?;
+        Some(PendingGateway { olp, edge })
+    }
+
     /// The pending gateways in order of creation.
-    pub fn pending_gateways(&self) -> impl Iterator<Item = MapOlp> + '_ {
-        self.graph.pending_edges().map(|dart| self.gateway(dart))
+    pub fn pending_gateways(&self) -> impl Iterator<Item = PendingGateway> + '_ {
+        self.graph.pending_edges().map(|edge| PendingGateway { olp: self.gateway(edge.dart()), edge })
     }
 
     /// All links, each once, as pairs of gateways in ascending order.
     pub fn links(&self) -> impl Iterator<Item = (MapOlp, MapOlp)> + '_ {
-        let olps = (0..self.olps.len() as u32).map(MapOlp);
+        let olps = (0..self.olps.len() as u32).map(MapOlp::new);
         olps.filter_map(|olp| self.linked(olp).filter(|&other| olp < other).map(|other| (olp, other)))
     }
 
-    /// Whether two pending gateways lie in the same face, so that linking them keeps the genus. A
-    /// closed end lies in none.
-    ///
-    /// # Panics
-    /// If one of them is linked.
+    /// Whether two pending gateways lie in the same face, so that linking them keeps the genus.
     #[must_use]
-    pub fn share_face(&self, a: MapOlp, b: MapOlp) -> bool {
-        match (self.dart(a), self.dart(b)) {
-            (Some(a), Some(b)) => self.graph.face_of_pending(a) == self.graph.face_of_pending(b),
-            _ => false,
-        }
+    pub fn share_face(&self, a: PendingGateway, b: PendingGateway) -> bool {
+        self.graph.face_of(a.edge) == self.graph.face_of(b.edge)
     }
 }

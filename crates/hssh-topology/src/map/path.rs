@@ -2,20 +2,8 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::{MapOlp, PlaceId, TopologicalMap};
-
-/// A path of a map. When two paths become one, the one with more places gives its identity.
-#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug, Serialize, Deserialize)]
-#[serde(transparent)]
-pub struct PathId(pub u32);
-
-impl PathId {
-    /// The path as an index.
-    #[must_use]
-    pub fn index(self) -> usize {
-        self.0 as usize
-    }
-}
+use super::TopologicalMap;
+use crate::ids::{MapOlp, PathId, PlaceId};
 
 /// The two directions along a path.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug, Serialize, Deserialize)]
@@ -114,7 +102,7 @@ impl TopologicalMap {
 
     /// The paths of the map, in order of creation.
     pub fn paths(&self) -> impl Iterator<Item = PathId> + '_ {
-        let ids = (0..self.paths.len() as u32).map(PathId);
+        let ids = (0..self.paths.len() as u32).map(PathId::new);
         ids.filter(|path| self.paths[path.index()].state != PathState::Absorbed)
     }
 
@@ -150,7 +138,7 @@ impl TopologicalMap {
             .paths()
             .map(|path| Course { path, circular: self.is_circular(path), downstream: Vec::new() })
             .collect();
-        for start in (0..self.olps.len() as u32).map(MapOlp) {
+        for start in (0..self.olps.len() as u32).map(MapOlp::new) {
             if self.direction(start) != Direction::Downstream {
                 continue;
             }

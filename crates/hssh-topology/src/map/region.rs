@@ -2,7 +2,8 @@
 
 use serde::Serialize;
 
-use super::{MapOlp, PathId, PlaceId, TopologicalMap};
+use super::TopologicalMap;
+use crate::ids::{Dart, MapOlp, PathId, PlaceId};
 
 /// A part of the environment enclosed by travels: a face of the embedded graph.
 #[derive(Clone, PartialEq, Eq, Debug, Serialize)]
@@ -36,7 +37,7 @@ impl TopologicalMap {
 
     /// The pending gateways in the corner that a walk along a face turns before it takes `dart`:
     /// those clockwise after `dart` up to the next edge.
-    fn pending_before(&self, dart: crate::Dart) -> impl Iterator<Item = MapOlp> + '_ {
+    fn pending_before(&self, dart: Dart) -> impl Iterator<Item = MapOlp> + '_ {
         std::iter::successors(Some(self.graph.succ(dart)), |&next| Some(self.graph.succ(next)))
             .take_while(|&next| self.graph.is_pending(next))
             .map(|next| self.gateway(next))

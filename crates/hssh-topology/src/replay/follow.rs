@@ -5,10 +5,9 @@ use std::collections::BTreeSet;
 use serde::Serialize;
 
 use super::sketch::{End, Malformed, MapSketch, Wiring};
-use crate::catalog::StarId;
 use crate::hypothesis::Observation;
-use crate::map::PlaceId;
-use crate::star::{Olp, OlpName, Star};
+use crate::ids::{Olp, PlaceId, StarId};
+use crate::star::{OlpName, Star};
 
 /// An exploration as a map tells it.
 #[derive(Clone, PartialEq, Eq, Debug, Serialize)]
@@ -53,7 +52,7 @@ pub enum Contradiction {
     #[error("no map: {0}")]
     Malformed(#[from] Malformed),
     /// An observation names a star that is not in the list. Travel 0 stands for the first star.
-    #[error("travel {travel}: star {} does not exist", star.0)]
+    #[error("travel {travel}: star {star} does not exist")]
     NoSuchStar {
         /// The travel.
         travel: usize,
@@ -61,7 +60,7 @@ pub enum Contradiction {
         star: StarId,
     },
     /// The robot cannot have left or entered a star by that end.
-    #[error("travel {travel}: the observed star {star} has no gateway number {}", olp.0)]
+    #[error("travel {travel}: the observed star {star} has no gateway number {olp}")]
     NoSuchGateway {
         /// The travel.
         travel: usize,
@@ -79,7 +78,7 @@ pub enum Contradiction {
         expected: Star,
     },
     /// The map leads nowhere by the exit.
-    #[error("travel {travel} leaves place {} by `{exit}`, which the map does not link", place.0)]
+    #[error("travel {travel} leaves place {place} by `{exit}`, which the map does not link")]
     NotLinked {
         /// The travel.
         travel: usize,
@@ -90,8 +89,8 @@ pub enum Contradiction {
     },
     /// The place that the map leads to does not look like what was observed.
     #[error(
-        "travel {travel} reaches place {} by `{entry}`; seen from there its star {expected} is not the \
-         observed {observed} entered by `{observed_entry}`", place.0
+        "travel {travel} reaches place {place} by `{entry}`; seen from there its star {expected} is not the \
+         observed {observed} entered by `{observed_entry}`"
     )]
     StarMismatch {
         /// The travel.
@@ -108,7 +107,7 @@ pub enum Contradiction {
         observed_entry: OlpName,
     },
     /// A place that no travel reaches.
-    #[error("place {} is never visited", .0.0)]
+    #[error("place {0} is never visited")]
     UnvisitedPlace(PlaceId),
     /// A link that no travel uses.
     #[error("the link from {0} to {1} is never used")]
@@ -130,17 +129,17 @@ pub enum Contradiction {
 ///
 /// // Along a corridor from one dead end to the other, and back.
 /// let stars: [Star; 2] = ["0+ (0-)".parse()?, "(0+) 0-".parse()?];
-/// let go = |exit, entry, star| Observation { exit: Olp(exit), entry: Olp(entry), star: StarId(star) };
+/// let go = |exit, entry, star| Observation { exit: Olp::new(exit), entry: Olp::new(entry), star: StarId::new(star) };
 /// let there_and_back = [go(0, 1, 1), go(1, 0, 0)];
 ///
-/// let end = |place, olp| End { place: PlaceId(place), olp: Olp(olp) };
+/// let end = |place, olp| End { place: PlaceId::new(place), olp: Olp::new(olp) };
 /// let mut map = MapSketch { places: stars.to_vec(), links: vec![(end(0, 0), end(1, 1))] };
-/// let told = replay(&map, &stars, StarId(0), &there_and_back)?;
+/// let told = replay(&map, &stars, StarId::new(0), &there_and_back)?;
 /// assert_eq!(told.travels[0].discovery, Discovery::NewPlace);
-/// assert_eq!((told.travels[1].to, told.travels[1].discovery), (PlaceId(0), Discovery::KnownLink));
+/// assert_eq!((told.travels[1].to, told.travels[1].discovery), (PlaceId::new(0), Discovery::KnownLink));
 ///
 /// map.links.clear();
-/// let error = replay(&map, &stars, StarId(0), &there_and_back).unwrap_err();
+/// let error = replay(&map, &stars, StarId::new(0), &there_and_back).unwrap_err();
 /// assert_eq!(error.to_string(), "travel 1 leaves place 0 by `0+`, which the map does not link");
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
@@ -151,7 +150,7 @@ pub fn replay(
     observations: &[Observation],
 ) -> Result<Replay, Contradiction> {
     let wiring = Wiring::of(sketch)?;
-    let mut here = PlaceId(0);
+    let mut here = PlaceId::new(0);
     let mut rotation = 0;
     let mut seen = star(stars, start, 0)?;
     if !looks_like(seen, rotation, wiring.star(here)) {
@@ -166,18 +165,18 @@ pub fn replay(
         let travel = index + 1;
         let observed = star(stars, next, travel)?;
         for (star, olp) in [(seen, exit), (observed, entry)] {
-            if olp.0 >= star.degree() || !star.is_travelable(olp) {
+            if olp.number() >= star.degree() || !star.is_travelable(olp) {
                 return Err(Contradiction::NoSuchGateway { travel, star: star.clone(), olp });
             }
         }
 
-        let left = End { place: here, olp: Olp((exit.0 + rotation) % seen.degree()) };
+        let left = End { place: here, olp: exit.turned(rotation, seen.degree()) };
         let reached = wiring.partner(left).ok_or_else(|| {
             let exit = wiring.star(here).name(left.olp);
             Contradiction::NotLinked { travel, place: here, exit }
         })?;
         let expected = wiring.star(reached.place);
-        rotation = (reached.olp.0 + observed.degree() - entry.0) % observed.degree();
+        rotation = entry.turn_to(reached.olp, observed.degree());
         if !looks_like(observed, rotation, expected) {
             return Err(Contradiction::StarMismatch {
                 travel,
@@ -218,11 +217,11 @@ fn star(stars: &[Star], star: StarId, travel: usize) -> Result<&Star, Contradict
 /// paths (Definition 2.2).
 fn looks_like(observed: &Star, rotation: u32, expected: &Star) -> bool {
     let degree = observed.degree();
-    let turned = |olp: Olp| Olp((olp.0 + rotation) % degree);
+    let turned = |olp: Olp| olp.turned(rotation, degree);
     degree == expected.degree()
         && observed.olps().all(|olp| {
             let (here, there) = (&observed.ends()[olp.index()], &expected.ends()[turned(olp).index()]);
-            here.travel == there.travel
+            here.passability == there.passability
                 && here.label == there.label
                 && turned(observed.opposite(olp)) == expected.opposite(turned(olp))
         })

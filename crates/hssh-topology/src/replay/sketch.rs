@@ -6,8 +6,9 @@ use std::fmt;
 use serde::{Deserialize, Serialize};
 
 use crate::catalog::StarCatalog;
-use crate::map::{PlaceId, TopologicalMap};
-use crate::star::{Olp, Star};
+use crate::ids::{Olp, PlaceId};
+use crate::map::TopologicalMap;
+use crate::star::Star;
 
 /// An oriented local path of a map: a place, and a position in the clockwise order of its star.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug, Serialize, Deserialize)]
@@ -21,7 +22,7 @@ pub struct End {
 
 impl fmt::Display for End {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "end {} of place {}", self.olp.0, self.place.0)
+        write!(f, "end {} of place {}", self.olp, self.place)
     }
 }
 
@@ -32,13 +33,15 @@ impl fmt::Display for End {
 /// [`Star`]: a name, in parentheses if closed, a label after a colon.
 ///
 /// ```
-/// use hssh_topology::{MapSketch, StarCatalog, TopologicalMap};
+/// use hssh_topology::{MapSketch, PendingGateway, StarCatalog, TopologicalMap};
 ///
 /// let mut catalog = StarCatalog::new();
 /// let corner = catalog.intern(&"0+ (1+) (0-) 1-".parse()?);
 /// let mut map = TopologicalMap::new();
-/// let (a, b) = (map.add_place(corner, catalog.star(corner)), map.add_place(corner, catalog.star(corner)));
-/// map.link(map.olp(a, hssh_topology::Olp(0)), map.olp(b, hssh_topology::Olp(3)));
+/// map.add_place(corner, catalog.star(corner));
+/// map.add_place(corner, catalog.star(corner));
+/// let pending: Vec<PendingGateway> = map.pending_gateways().collect();
+/// map.link(pending[0], pending[3]);
 ///
 /// let sketch = MapSketch::of(&map, &catalog);
 /// let json = serde_json::to_string(&sketch)?;
@@ -130,7 +133,7 @@ impl<'a> Wiring<'a> {
             }
             for (end, far) in [(a, b), (b, a)] {
                 let star = sketch.places.get(end.place.index());
-                let Some(star) = star.filter(|star| end.olp.0 < star.degree()) else {
+                let Some(star) = star.filter(|star| end.olp.number() < star.degree()) else {
                     return Err(Malformed::NoSuchEnd { link, end });
                 };
                 if !star.is_travelable(end.olp) {
@@ -145,7 +148,7 @@ impl<'a> Wiring<'a> {
     }
 
     pub(super) fn places(&self) -> impl Iterator<Item = PlaceId> + use<> {
-        (0..self.places.len() as u32).map(PlaceId)
+        (0..self.places.len() as u32).map(PlaceId::new)
     }
 
     /// # Panics
@@ -178,7 +181,7 @@ impl<'a> Wiring<'a> {
 mod stars {
     use serde::{Deserialize, Deserializer, Serialize, Serializer, de::Error};
 
-    use crate::star::{Star, StarEnd, StarError, Travel};
+    use crate::star::{Passability, Star, StarEnd, StarError};
 
     pub(super) fn serialize<S: Serializer>(places: &[Star], serializer: S) -> Result<S::Ok, S::Error> {
         let write = |star: &Star| star.ends().iter().map(write_end).collect::<Vec<_>>();
@@ -196,19 +199,19 @@ mod stars {
 
     fn write_end(end: &StarEnd) -> String {
         let label = end.label.as_ref().map_or(String::new(), |label| format!(":{label}"));
-        match end.travel {
-            Travel::Travelable => format!("{}{label}", end.name),
-            Travel::Closed => format!("({}{label})", end.name),
+        match end.passability {
+            Passability::Travelable => format!("{}{label}", end.name),
+            Passability::Closed => format!("({}{label})", end.name),
         }
     }
 
     fn read_end(text: &str) -> Result<StarEnd, StarError> {
         let inside = text.strip_prefix('(').and_then(|rest| rest.strip_suffix(')'));
-        let travel = if inside.is_some() { Travel::Closed } else { Travel::Travelable };
+        let passability = if inside.is_some() { Passability::Closed } else { Passability::Travelable };
         let (name, label) = match inside.unwrap_or(text).split_once(':') {
             Some((name, label)) => (name, Some(label.to_owned())),
             None => (inside.unwrap_or(text), None),
         };
-        Ok(StarEnd { name: name.parse()?, travel, label })
+        Ok(StarEnd { name: name.parse()?, passability, label })
     }
 }

@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 
 use super::sketch::{End, Wiring};
 use super::violation::TracedPath;
-use crate::map::PlaceId;
+use crate::ids::PlaceId;
 
 impl Wiring<'_> {
     /// From `end` straight ahead: at each place met, the end that looks ahead, `end` being the first;

@@ -5,7 +5,7 @@ use std::fmt;
 
 use super::sketch::{End, Malformed, MapSketch, Wiring};
 use crate::axioms::{Axiom, Axioms};
-use crate::map::PlaceId;
+use crate::ids::PlaceId;
 
 /// A path in one of its two directions.
 #[derive(Clone, PartialEq, Eq, Debug)]
@@ -27,7 +27,7 @@ impl TracedPath {
 impl fmt::Display for TracedPath {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let around = self.places().take(usize::from(self.circular));
-        let places: Vec<String> = self.places().chain(around).map(|place| place.0.to_string()).collect();
+        let places: Vec<String> = self.places().chain(around).map(|place| place.to_string()).collect();
         f.write_str(&places.join("-"))
     }
 }
@@ -36,7 +36,7 @@ impl fmt::Display for TracedPath {
 #[derive(Clone, PartialEq, Eq, Debug, thiserror::Error)]
 pub enum Violation {
     /// A path meets a place twice.
-    #[error("path {path} meets place {} twice", place.0)]
+    #[error("path {path} meets place {place} twice")]
     SelfIntersection {
         /// The path.
         path: TracedPath,
@@ -66,7 +66,7 @@ pub enum Violation {
         most: u32,
     },
     /// Two paths share more than one place.
-    #[error("paths {path} and {other} share places {} and {}", shared.0.0, shared.1.0)]
+    #[error("paths {path} and {other} share places {} and {}", shared.0, shared.1)]
     SharedPlaces {
         /// The first path.
         path: TracedPath,
@@ -82,7 +82,7 @@ pub enum Violation {
         paths: Box<[TracedPath; 3]>,
     },
     /// A place is right and left of a path.
-    #[error("place {} is right and left of path {path}", place.0)]
+    #[error("place {place} is right and left of path {path}")]
     OnBothSides {
         /// The path.
         path: TracedPath,
@@ -90,7 +90,7 @@ pub enum Violation {
         place: PlaceId,
     },
     /// A place on a path is also beside it.
-    #[error("place {} is on path {path} and beside it", place.0)]
+    #[error("place {place} is on path {path} and beside it")]
     OnAndBeside {
         /// The path.
         path: TracedPath,
@@ -123,7 +123,7 @@ impl Violation {
 /// use hssh_topology::{Axioms, End, MapSketch, Olp, PlaceId, violations};
 ///
 /// // A corridor whose two ends are the same place.
-/// let end = |olp| End { place: PlaceId(0), olp: Olp(olp) };
+/// let end = |olp| End { place: PlaceId::new(0), olp: Olp::new(olp) };
 /// let ring = MapSketch { places: vec!["0+ 0-".parse()?], links: vec![(end(0), end(1))] };
 /// let found = violations(&ring, &Axioms::default())?;
 /// assert_eq!(found.len(), 1);

@@ -1,14 +1,16 @@
 //! Random stars, and maps that grow at random and respect no axiom.
 
-use hssh_topology::{MapOlp, OlpName, Sign, Star, StarCatalog, StarEnd, StarId, TopologicalMap, Travel};
+use hssh_topology::{
+    OlpName, Passability, PendingGateway, Sign, Star, StarCatalog, StarEnd, StarId, TopologicalMap,
+};
 use proptest::prelude::*;
 use proptest::sample::Index;
 
 /// An attribute: mostly travelable, seldom labeled.
-fn attribute() -> impl Strategy<Value = (Travel, Option<String>)> {
-    let travel = prop_oneof![3 => Just(Travel::Travelable), 1 => Just(Travel::Closed)];
+fn attribute() -> impl Strategy<Value = (Passability, Option<String>)> {
+    let passability = prop_oneof![3 => Just(Passability::Travelable), 1 => Just(Passability::Closed)];
     let label = prop_oneof![8 => Just(None), 1 => Just(Some("door".to_owned()))];
-    (travel, label)
+    (passability, label)
 }
 
 /// A star of `local_paths` local paths, half of the time one whose ends all look alike.
@@ -22,9 +24,9 @@ fn star_of(local_paths: std::ops::RangeInclusive<u32>) -> impl Strategy<Value = 
         let alike = attribute().prop_map(move |attribute| vec![attribute; ends]);
         let different = prop::collection::vec(attribute(), ends);
         (order, prop_oneof![different, alike]).prop_map(|(order, attributes)| {
-            let end = |(name, (travel, label)): (OlpName, (Travel, Option<String>))| StarEnd {
+            let end = |(name, (passability, label)): (OlpName, (Passability, Option<String>))| StarEnd {
                 name,
-                travel,
+                passability,
                 label,
             };
             Star::new(order.into_iter().zip(attributes).map(end)).expect("all ends are paired")
@@ -86,8 +88,8 @@ impl Growing {
     }
 
     /// Two different pending gateways, if there are any.
-    fn pair(&self, a: &Index, b: &Index) -> Option<(MapOlp, MapOlp)> {
-        let mut pending: Vec<MapOlp> = self.map.pending_gateways().collect();
+    fn pair(&self, a: &Index, b: &Index) -> Option<(PendingGateway, PendingGateway)> {
+        let mut pending: Vec<PendingGateway> = self.map.pending_gateways().collect();
         if pending.len() < 2 {
             return None;
         }
@@ -104,7 +106,7 @@ impl Growing {
     pub(crate) fn make_if(
         &mut self,
         change: &Change,
-        allowed: impl Fn(&TopologicalMap, MapOlp, MapOlp) -> bool,
+        allowed: impl Fn(&TopologicalMap, PendingGateway, PendingGateway) -> bool,
     ) {
         match change {
             Change::Place(star) => {

@@ -4,7 +4,9 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use hssh_causal::{Exploration, NamedStar, StarType};
 use hssh_oracle::{End, Facts, Map, Path};
-use hssh_topology::{BoundaryRelation, Direction, MapOlp, PlaceId, StarCatalog, TopologicalMap};
+use hssh_topology::{
+    BoundaryRelation, Direction, MapOlp, PendingGateway, PlaceId, StarCatalog, TopologicalMap,
+};
 
 /// An exploration without travels, for its star types: those of the catalog.
 pub(crate) fn stars_of(catalog: &StarCatalog) -> Exploration {
@@ -21,7 +23,7 @@ pub(crate) fn stars_of(catalog: &StarCatalog) -> Exploration {
 pub(crate) fn naive<'a>(map: &TopologicalMap, stars: &'a Exploration) -> Map<'a> {
     Map {
         exploration: stars,
-        places: map.places().map(|place| StarType(map.star(place).0)).collect(),
+        places: map.places().map(|place| StarType(map.star(place).number())).collect(),
         links: map.links().map(|(a, b)| (end(map, a), end(map, b))).collect(),
     }
 }
@@ -48,7 +50,7 @@ fn check_counts(map: &TopologicalMap, naive: &Map<'_>) {
     assert_eq!(map.is_closed(), facts.closed);
     assert_eq!(map.is_perpendicular(), facts.perpendicular);
 
-    let pending: Vec<End> = map.pending_gateways().map(|olp| end(map, olp)).collect();
+    let pending: Vec<End> = map.pending_gateways().map(|gateway| end(map, gateway.olp())).collect();
     assert_eq!(pending, naive.pending_gateways());
     assert_eq!(map.pending_count() as usize, pending.len());
     assert_eq!(map.link_count() as usize, naive.links.len());
@@ -98,10 +100,10 @@ fn check_faces(map: &TopologicalMap, naive: &Map<'_>) {
         assert_eq!(region.paths, along.into_iter().collect::<Vec<_>>());
     }
 
-    let pending: Vec<MapOlp> = map.pending_gateways().collect();
+    let pending: Vec<PendingGateway> = map.pending_gateways().collect();
     for &a in &pending {
         for &b in &pending {
-            let (one, other) = (end(map, a), end(map, b));
+            let (one, other) = (end(map, a.olp()), end(map, b.olp()));
             // Around an isolated place there is one face of its own.
             let same = match (face_of(one), face_of(other)) {
                 (None, None) => one.0 == other.0,

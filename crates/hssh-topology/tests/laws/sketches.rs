@@ -84,7 +84,7 @@ proptest! {
 }
 
 fn end(place: u32, olp: u32) -> End {
-    End { place: PlaceId(place), olp: Olp(olp) }
+    End { place: PlaceId::new(place), olp: Olp::new(olp) }
 }
 
 fn sketch(stars: &[&str], links: &[(End, End)]) -> MapSketch {
@@ -132,16 +132,20 @@ fn what_is_no_map_is_refused() {
     for (sketch, refusal) in refusals {
         assert_eq!(violations(&sketch, &Axioms::default()), Err(refusal.clone()));
         let stars = ["0+ 0-".parse().unwrap()];
-        assert_eq!(replay(&sketch, &stars, StarId(0), &[]), Err(Contradiction::Malformed(refusal)));
+        assert_eq!(replay(&sketch, &stars, StarId::new(0), &[]), Err(Contradiction::Malformed(refusal)));
     }
 }
 
 #[test]
 fn contradictions_say_where_and_what() {
     let stars: Vec<Star> = ["0+ 1+ 0- 1-", "0+ (1+) 0- 1-"].map(|star| star.parse().unwrap()).to_vec();
-    let go = |exit, entry, star| Observation { exit: Olp(exit), entry: Olp(entry), star: StarId(star) };
+    let go = |exit, entry, star| Observation {
+        exit: Olp::new(exit),
+        entry: Olp::new(entry),
+        star: StarId::new(star),
+    };
     let refusal = |places: &[&str], links: &[(End, End)], start, observations: &[Observation]| {
-        replay(&sketch(places, links), &stars, StarId(start), observations).unwrap_err().to_string()
+        replay(&sketch(places, links), &stars, StarId::new(start), observations).unwrap_err().to_string()
     };
     let (plus, tee) = ("0+ 1+ 0- 1-", "0+ (1+) 0- 1-");
     let link = (end(0, 0), end(1, 2));
@@ -178,16 +182,16 @@ fn a_square_told() {
     use hssh_topology::Discovery::{KnownLink, LoopClosure, NewPlace};
     let corner = "0+ 1+ (0-) (1-)";
     let stars: Vec<Star> = vec![corner.parse().unwrap()];
-    let go = Observation { exit: Olp(0), entry: Olp(1), star: StarId(0) };
+    let go = Observation { exit: Olp::new(0), entry: Olp::new(1), star: StarId::new(0) };
     let links: Vec<(End, End)> = (0..4).map(|place| (end(place, 0), end((place + 1) % 4, 1))).collect();
-    let told = replay(&sketch(&[corner; 4], &links), &stars, StarId(0), &[go; 5]).unwrap();
+    let told = replay(&sketch(&[corner; 4], &links), &stars, StarId::new(0), &[go; 5]).unwrap();
     let discoveries: Vec<_> = told.travels.iter().map(|travel| travel.discovery).collect();
     assert_eq!(discoveries, [NewPlace, NewPlace, NewPlace, LoopClosure, KnownLink]);
     assert!(told.travels.iter().all(|travel| travel.rotation == 0));
-    assert_eq!(told.travels[3].to, PlaceId(0));
+    assert_eq!(told.travels[3].to, PlaceId::new(0));
     // The same walk is no lap around a square in which one place stands the other way round.
     let turned = sketch(&[corner, corner, "(0+) 1+ 0- (1-)", corner], &links);
-    assert!(replay(&turned, &stars, StarId(0), &[go; 5]).is_err());
+    assert!(replay(&turned, &stars, StarId::new(0), &[go; 5]).is_err());
 }
 
 /// Two crossings joined twice over: paths share two places; three roads, a triangle.

@@ -17,10 +17,8 @@ use crate::output::{print, print_json};
 #[derive(Serialize)]
 struct Explanation {
     rank: u32,
-    f1: u64,
-    f2: u32,
-    f3: u32,
-    genus: u32,
+    #[serde(flatten)]
+    measure: Measure,
     closed: bool,
     map: MapSketch,
     replay: Replay,
@@ -72,8 +70,7 @@ fn explain(
         (MapSketch::of(&map, &experience.catalog), Measure::of(&map), map.is_closed());
     let replay = checked_replay(&sketch, experience, exploration, options)?;
     if options.json {
-        let (rank, Measure { f1, f2, f3, genus }) = (options.rank, measure);
-        return print_json(&Explanation { rank, f1, f2, f3, genus, closed, map: sketch, replay });
+        return print_json(&Explanation { rank: options.rank, measure, closed, map: sketch, replay });
     }
     let mut text = format!("Map {} of the ranking: {measure}.\n", options.rank);
     let start = &exploration.star_types()[exploration.start().index()].name;
@@ -108,9 +105,9 @@ fn checked_replay(
 fn sentence(index: usize, step: &ReplayedTravel, exploration: &Exploration, map: &MapSketch) -> String {
     let travel = &exploration.travels()[index];
     let name = &exploration.star_types()[travel.star.index()].name;
-    let end = |place: hssh_topology::PlaceId, olp: Olp| map.places[place.0 as usize].name(olp);
+    let end = |place: hssh_topology::PlaceId, olp: Olp| map.places[place.index()].name(olp);
     let (exit, entry) = (end(step.from, step.exit), end(step.to, step.entry));
-    let (from, to) = (step.from.0, step.to.0);
+    let (from, to) = (step.from, step.to);
     let left = format!("leave place {from} by {exit}, see a {name}");
     let turned = match step.rotation {
         0 => String::new(),

@@ -2,7 +2,7 @@
 
 use hssh_causal::Exploration;
 use hssh_search::{Levels, Mapper, RankedMap, Report, StopReason, Strategy, place_by_odometry};
-use hssh_topology::{MapSketch, Position};
+use hssh_topology::{MapSketch, Measure, Position};
 use serde::Serialize;
 
 use super::draw::{Pictures, draw, is_asked};
@@ -24,12 +24,8 @@ struct Answer {
 #[derive(Serialize)]
 struct Entry {
     rank: usize,
-    f1: u64,
-    f2: u32,
-    f3: u32,
-    genus: u32,
-    places: u32,
-    paths: u32,
+    #[serde(flatten)]
+    measure: Measure,
     closed: bool,
     nearly_closed: bool,
     optimal: bool,
@@ -102,12 +98,7 @@ fn print_answer(
             let hypothesis = mapper.hypothesis(map.node);
             Entry {
                 rank: index + 1,
-                f1: map.measure.f1,
-                f2: map.measure.f2,
-                f3: map.measure.f3,
-                genus: map.measure.genus,
-                places: map.measure.f3,
-                paths: map.measure.f2,
+                measure: map.measure,
                 closed: map.closed,
                 nearly_closed: map.nearly_closed,
                 optimal: index < optimal,
@@ -130,9 +121,9 @@ fn print_answer(
         text += &format!(
             "{:>6} {mark}{:>6}{:>11}{:>11}{:>7}  {closed}\n",
             index + 1,
-            measure.f1,
-            measure.f2,
-            measure.f3,
+            measure.undetermined_boundaries,
+            measure.paths,
+            measure.places,
             measure.genus
         );
     }

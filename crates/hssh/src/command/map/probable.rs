@@ -8,7 +8,7 @@ use hssh_search::{
     Appearance, Cost, Distinction, LINEAR_TRUST, Posterior, PosteriorOrder, PosteriorReport, PosteriorSearch,
     Prediction, ProbableMap, StopReason, place_by_odometry,
 };
-use hssh_topology::{MapOlp, MapSketch, Measure, PlaceId, Position, StarCatalog};
+use hssh_topology::{MapOlp, MapSketch, Measure, Position, StarCatalog};
 use serde::Serialize;
 
 use super::draw::{Pictures, draw};
@@ -136,12 +136,13 @@ fn text(options: &MapOptions, posterior: &Posterior, maps: &[ProbableMap]) -> St
     let ties = report.ties as usize;
     for (index, map) in maps.iter().enumerate() {
         let mark = if index < ties && report.proved { '*' } else { ' ' };
-        let Measure { f1, f2, f3, genus } = map.measure;
+        let Measure { undetermined_boundaries, paths, places, genus } = map.measure;
         let closed = if map.closed { "yes" } else { "no" };
         let (rank, probability, cost, bend) = (index + 1, map.probability, map.cost.total(), map.cost.bend);
         let _ = writeln!(
             text,
-            "{rank:>6} {mark}{probability:>13.3e}{cost:>11.3}{bend:>9.2}{f1:>6}{f2:>8}{f3:>8}{genus:>7}  {closed}"
+            "{rank:>6} {mark}{probability:>13.3e}{cost:>11.3}{bend:>9.2}{undetermined_boundaries:>6}\
+             {paths:>8}{places:>8}{genus:>7}  {closed}"
         );
     }
     let unlisted = report.found - maps.len() as u64;
@@ -206,7 +207,7 @@ fn difference(posterior: &Posterior, first: &ProbableMap, second: &ProbableMap) 
     let Distinction { parting, test } = posterior.distinguish(first, second);
     let catalog = &posterior.experience().catalog;
     let Some(parting) = parting else { return "in nothing.".to_owned() };
-    let (visit, [one, two]) = (parting.visit, parting.positions.map(|position| position.place.0));
+    let (visit, [one, two]) = (parting.visit, parting.positions.map(|position| position.place));
     let mut text = if one == two {
         format!("visit {visit} sees place {one} from another side.")
     } else {
@@ -218,7 +219,7 @@ fn difference(posterior: &Posterior, first: &ProbableMap, second: &ProbableMap) 
     let map = posterior.hypothesis(first.node).map;
     let leave = |exit: &MapOlp| {
         let place = map.place(*exit);
-        format!("leave place {} by {}", place.0, catalog.star(map.star(place)).name(map.local(*exit)))
+        format!("leave place {place} by {}", catalog.star(map.star(place)).name(map.local(*exit)))
     };
     let way: Vec<String> = test.exits.iter().map(leave).collect();
     let [in_first, here] = test.predictions.map(|prediction| says(prediction, catalog));
@@ -229,7 +230,7 @@ fn difference(posterior: &Posterior, first: &ProbableMap, second: &ProbableMap) 
 fn says(prediction: Prediction, catalog: &StarCatalog) -> String {
     match prediction {
         Prediction::Unknown => "anything may follow".to_owned(),
-        Prediction::Arrival { place: PlaceId(place), star, entry } => {
+        Prediction::Arrival { place, star, entry } => {
             let star = catalog.star(star);
             format!("place {place}, entered by {} of the star {star}", star.name(entry))
         }
