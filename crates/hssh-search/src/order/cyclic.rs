@@ -53,6 +53,9 @@ impl<A: Appraise> Engine<A> {
     pub(crate) fn cyclic(&mut self, context: Context<'_>) -> StopReason {
         let travels = context.travels();
         let apart = if travels <= ONE_FRONT { travels + 1 } else { travels.div_ceil(FRONTS) };
+        if let Some(reason) = self.stop(context) {
+            return reason;
+        }
         loop {
             let mut idle = true;
             let from = std::mem::take(&mut self.sweep.from);

@@ -51,7 +51,9 @@ fn a_limit_on_nodes() {
             shows_its_last_level(&mapper);
         } else {
             assert!(before.nodes > limit);
-            assert_eq!((before.explained, mapper.maps(1).len()), (0, 0));
+            if strategy.0 != Order::Cyclic {
+                assert_eq!((before.explained, mapper.maps(1).len()), (0, 0));
+            }
         }
         // The limit is still the same.
         assert_eq!(mapper.advance(), StopReason::NodeLimit);
