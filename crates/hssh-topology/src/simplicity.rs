@@ -48,8 +48,8 @@ impl Simplicity {
     #[must_use]
     pub fn of(self, map: &TopologicalMap) -> f64 {
         let f1 = if self.c1 > 0.0 { map.undetermined_boundary_count() } else { 0 };
-        let f2 = map.paths().filter(|&path| map.places_on_path(path) >= 2).count();
-        self.c1 * f1 as f64 + self.c2 * f2 as f64 + self.c3 * f64::from(map.place_count())
+        let f2 = map.long_path_count();
+        self.c1 * f1 as f64 + self.c2 * f64::from(f2) + self.c3 * f64::from(map.place_count())
     }
 
     /// A number that F does not fall below in any map grown from this one by at most `travels` more
@@ -59,10 +59,8 @@ impl Simplicity {
     /// ones stay, and a travel links at most two of the pending ones.
     #[must_use]
     pub fn bound(self, map: &TopologicalMap, travels: u32) -> f64 {
-        let long = || map.paths().filter(|&path| map.places_on_path(path) >= 2);
-        let pending: u32 = long().map(|path| map.pending_ends(path)).sum();
-        let ends: u32 = long().map(|path| if map.is_circular(path) { 0 } else { 2 }).sum();
-        let f2 = (ends - pending + pending.saturating_sub(2 * travels)).div_ceil(2);
+        let pending = map.pending_ends_of_long_paths();
+        let f2 = (map.closed_ends_of_long_paths() + pending.saturating_sub(2 * travels)).div_ceil(2);
         let f1 = if self.c1 > 0.0 { map.permanently_undetermined_boundary_count() } else { 0 };
         self.c1 * f1 as f64 + self.c2 * f64::from(f2) + self.c3 * f64::from(map.place_count())
     }
