@@ -10,9 +10,11 @@ mod embedding;
 mod hypothesis;
 mod ids;
 mod isomorphism;
+mod live;
 mod map;
 mod preference;
 mod replay;
+mod sanity;
 mod simplicity;
 mod star;
 
@@ -30,5 +32,6 @@ pub use replay::{
     Contradiction, Discovery, End, Malformed, MapSketch, Replay, ReplayedTravel, TracedPath, Violation,
     replay, violations,
 };
+pub use sanity::Unsound;
 pub use simplicity::{Simplicity, SimplicityError, SimplicityFloor};
 pub use star::{OlpName, Passability, Sign, Star, StarEnd, StarError};

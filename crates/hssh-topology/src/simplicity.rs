@@ -48,8 +48,8 @@ impl Simplicity {
     #[must_use]
     pub fn of(self, map: &TopologicalMap) -> f64 {
         let f1 = if self.c1 > 0.0 { map.undetermined_boundary_count() } else { 0 };
-        let f2 = map.paths().filter(|&path| map.places_on_path(path) >= 2).count();
-        self.c1 * f1 as f64 + self.c2 * f2 as f64 + self.c3 * f64::from(map.place_count())
+        let f2 = map.long_path_count();
+        self.c1 * f1 as f64 + self.c2 * f64::from(f2) + self.c3 * f64::from(map.place_count())
     }
 
     /// A number that F does not fall below in any map grown from this one by at most `travels` more
@@ -65,12 +65,10 @@ impl Simplicity {
     /// ones stay, and a travel links at most two of the pending ones.
     #[must_use]
     pub fn floor(self, map: &TopologicalMap) -> SimplicityFloor {
-        let long = || map.paths().filter(|&path| map.places_on_path(path) >= 2);
-        let pending: u32 = long().map(|path| map.pending_ends(path)).sum();
-        let ends: u32 = long().map(|path| if map.is_circular(path) { 0 } else { 2 }).sum();
         let f1 = if self.c1 > 0.0 { map.permanently_undetermined_boundary_count() } else { 0 };
         let fixed = self.c1 * f1 as f64 + self.c3 * f64::from(map.place_count());
-        SimplicityFloor { c2: self.c2, fixed, pending, closed: ends - pending }
+        let (pending, closed) = (map.pending_ends_of_long_paths(), map.closed_ends_of_long_paths());
+        SimplicityFloor { c2: self.c2, fixed, pending, closed }
     }
 }
 

@@ -1,7 +1,8 @@
 //! Faces of an embedded graph, traced dart by dart (Definition 3.1).
 
-use super::{Components, Counts, EmbeddedGraph, Neighbors, PendingEdge};
+use super::{Components, Counts, EmbeddedGraph};
 use crate::ids::{Dart, FaceLabel};
+use crate::live::LiveList;
 
 /// The faces of an embedded graph: each a closed walk that keeps the wall to its right.
 #[derive(Clone, PartialEq, Eq, Debug)]
@@ -66,23 +67,22 @@ impl EmbeddedGraph {
     pub(super) fn recount(&mut self) {
         self.counts = Counts::default();
         self.components = Components::default();
-        self.pending_ends = None;
+        self.pending = LiveList::default();
         for _ in 0..self.vertex_count() {
             self.components.push();
         }
         self.counts.components = self.vertex_count();
         for dart in (0..self.dart_count()).map(Dart::new) {
-            match self.rev(dart) {
-                None => {
-                    self.counts.pending += 1;
-                    self.append_to_order(dart);
-                }
-                Some(rev) if dart < rev => {
-                    self.counts.edges += 1;
-                    let joined = self.components.unite(self.source(dart).number(), self.source(rev).number());
-                    self.counts.components -= u32::from(joined.is_some());
-                }
-                Some(_) => {}
+            self.pending.push();
+            let Some(rev) = self.rev(dart) else {
+                self.counts.pending += 1;
+                continue;
+            };
+            self.pending.leave(dart.number());
+            if dart < rev {
+                self.counts.edges += 1;
+                let joined = self.components.unite(self.source(dart).number(), self.source(rev).number());
+                self.counts.components -= u32::from(joined.is_some());
             }
         }
         self.counts.isolated = self.isolated_vertices().count() as u32;
@@ -126,36 +126,5 @@ impl EmbeddedGraph {
     pub(super) fn tie(&mut self, before: Dart, after: Dart) {
         self.darts[before.index()].in_face.after = after;
         self.darts[after.index()].in_face.before = before;
-    }
-
-    /// Restates the algebra of section 3.2 and recounts what is carried along.
-    ///
-    /// # Panics
-    /// If an invariant is broken: for tests and fuzzing.
-    pub fn sanity_check(&self) {
-        for dart in (0..self.dart_count()).map(Dart::new) {
-            assert_eq!(self.succ(self.pred(dart)), dart);
-            if let Some(rev) = self.rev(dart) {
-                assert_eq!(self.rev(rev), Some(dart));
-            } else {
-                let Neighbors { before, after } = self.darts[dart.index()].in_face;
-                assert_eq!(self.darts[before.index()].in_face.after, dart);
-                assert_eq!(self.darts[after.index()].in_face.before, dart);
-            }
-        }
-        let mut recounted = self.clone();
-        recounted.recount();
-        let next_face = self.counts.next_face;
-        assert_eq!(self.counts, Counts { next_face, ..recounted.counts });
-        assert_eq!(self.faces().len() as u32, self.face_count());
-        let pending: Vec<PendingEdge> = self.pending_edges().collect();
-        assert_eq!(pending, recounted.pending_edges().collect::<Vec<_>>());
-        for &edge in &pending {
-            let along = |graph: &EmbeddedGraph| graph.pending_edges_of_face(edge).collect::<Vec<_>>();
-            assert_eq!(along(self), along(&recounted));
-            let label = self.face_of(edge);
-            let same_label = pending.iter().filter(|&&other| self.face_of(other) == label);
-            assert_eq!(same_label.count(), along(self).len());
-        }
     }
 }

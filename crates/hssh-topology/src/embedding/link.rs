@@ -49,8 +49,8 @@ impl EmbeddedGraph {
         self.counts.components -= u32::from(joined.is_some());
         self.counts.edges += 1;
         self.counts.pending -= 2;
-        self.leave_order(a);
-        self.leave_order(b);
+        self.pending.leave(a.number());
+        self.pending.leave(b.number());
         self.join(a, b);
         Link { a, b, counts, relabeled, joined }
     }
@@ -65,7 +65,7 @@ impl EmbeddedGraph {
             let record = &mut self.darts[dart.index()];
             record.rev = dart;
             self.degree[record.source.index()] -= 1;
-            self.rejoin_order(dart);
+            self.pending.rejoin(dart.number());
         }
         for dart in [a, b] {
             let Neighbors { before, after } = self.darts[dart.index()].in_face;

@@ -3,6 +3,7 @@
 mod components;
 mod faces;
 mod link;
+mod sanity;
 #[cfg(test)]
 mod tests;
 
@@ -11,6 +12,7 @@ pub use faces::Faces;
 pub use link::Link;
 
 use crate::ids::{Dart, FaceLabel, Vertex};
+use crate::live::LiveList;
 
 /// A graph with a clockwise order of the edges around each vertex; parallel edges and loops allowed.
 ///
@@ -41,8 +43,7 @@ pub struct EmbeddedGraph {
     darts: Vec<DartRecord>,
     components: Components,
     counts: Counts,
-    /// The first and the last pending edge in ascending order.
-    pending_ends: Option<(Dart, Dart)>,
+    pending: LiveList,
 }
 
 /// A dart that no edge is at: what can be linked. It comes from a graph, which is asked for it
@@ -69,11 +70,9 @@ struct DartRecord {
     /// The neighbors among the pending edges of the face, in the order in which a walk along the
     /// face meets them: counterclockwise around each vertex. A linked dart keeps those it had.
     in_face: Neighbors,
-    /// The neighbors among all pending edges in ascending order, ending in the dart itself.
-    in_order: Neighbors,
 }
 
-/// The two neighbors in a doubly linked list.
+/// The two neighbors in a circle.
 #[derive(Clone, Copy, Debug)]
 struct Neighbors {
     before: Dart,
@@ -120,7 +119,7 @@ impl EmbeddedGraph {
             darts: Vec::new(),
             components: Components::default(),
             counts: Counts::default(),
-            pending_ends: None,
+            pending: LiveList::default(),
         }
     }
 
@@ -161,7 +160,7 @@ impl EmbeddedGraph {
             let in_face = Neighbors { before: self.succ(dart), after: self.pred(dart) };
             let record = &mut self.darts[dart.index()];
             (record.face, record.in_face) = (face, in_face);
-            self.append_to_order(dart);
+            self.pending.push();
         }
         self.components.push();
         self.counts.components += 1;
@@ -179,9 +178,7 @@ impl EmbeddedGraph {
         let vertex = Vertex::new(self.vertex_count().checked_sub(1).expect("there is a vertex to remove"));
         assert!(self.is_isolated(vertex), "a vertex that is removed has no edge");
         let (first, end) = self.span(vertex);
-        for dart in (first..end).rev().map(Dart::new) {
-            self.leave_order(dart);
-        }
+        (first..end).for_each(|_| self.pending.pop());
         self.darts.truncate(first as usize);
         self.first.pop();
         self.degree.pop();
@@ -198,13 +195,7 @@ impl EmbeddedGraph {
         let first = self.darts.len() as u32;
         self.darts.extend((first..first + degree).map(|dart| {
             let alone = Neighbors { before: Dart::new(dart), after: Dart::new(dart) };
-            DartRecord {
-                source: vertex,
-                rev: Dart::new(dart),
-                face: FaceLabel::new(0),
-                in_face: alone,
-                in_order: alone,
-            }
+            DartRecord { source: vertex, rev: Dart::new(dart), face: FaceLabel::new(0), in_face: alone }
         }));
         self.first.push(first + degree);
         self.degree.push(0);
@@ -356,13 +347,7 @@ impl EmbeddedGraph {
 
     /// All pending edges, ascending.
     pub fn pending_edges(&self) -> impl Iterator<Item = PendingEdge> + '_ {
-        let mut next = self.pending_ends.map(|(first, _)| first);
-        std::iter::from_fn(move || {
-            let dart = next?;
-            let after = self.darts[dart.index()].in_order.after;
-            next = (after != dart).then_some(after);
-            Some(PendingEdge(dart))
-        })
+        self.pending.iter().map(|dart| PendingEdge(Dart::new(dart)))
     }
 
     /// The pending edges of the face that `edge` lies in, from `edge` on, as a walk along the face
@@ -382,46 +367,6 @@ impl EmbeddedGraph {
     #[must_use]
     pub fn are_connected(&self, a: Vertex, b: Vertex) -> bool {
         self.components.root(a.number()) == self.components.root(b.number())
-    }
-
-    fn append_to_order(&mut self, dart: Dart) {
-        let (first, before) = self.pending_ends.map_or((dart, dart), |(first, last)| (first, last));
-        self.darts[before.index()].in_order.after = dart;
-        self.darts[dart.index()].in_order = Neighbors { before, after: dart };
-        self.pending_ends = Some((first, dart));
-    }
-
-    /// Takes a dart out of the ascending list of pending edges.
-    fn leave_order(&mut self, dart: Dart) {
-        let Neighbors { before, after } = self.darts[dart.index()].in_order;
-        let Some((first, last)) = self.pending_ends else { return };
-        let (is_first, is_last) = (dart == first, dart == last);
-        if !is_last {
-            self.darts[after.index()].in_order.before = if is_first { after } else { before };
-        }
-        if !is_first {
-            self.darts[before.index()].in_order.after = if is_last { before } else { after };
-        }
-        self.pending_ends = match (is_first, is_last) {
-            (true, true) => None,
-            (true, false) => Some((after, last)),
-            (false, true) => Some((first, before)),
-            (false, false) => Some((first, last)),
-        };
-    }
-
-    /// Puts a dart back where it was when it left; the last one to leave comes back first.
-    fn rejoin_order(&mut self, dart: Dart) {
-        let Neighbors { before, after } = self.darts[dart.index()].in_order;
-        let (was_first, was_last) = (before == dart, after == dart);
-        if !was_last {
-            self.darts[after.index()].in_order.before = dart;
-        }
-        if !was_first {
-            self.darts[before.index()].in_order.after = dart;
-        }
-        let (first, last) = self.pending_ends.unwrap_or((dart, dart));
-        self.pending_ends = Some((if was_first { dart } else { first }, if was_last { dart } else { last }));
     }
 }
 

@@ -4,6 +4,8 @@
 //! side and reaches the place going that way; left likewise. Each path has three sets of places: on
 //! it, right of it, left of it. They only grow, so that a link adds to them what it newly reaches.
 
+use std::collections::BTreeSet;
+
 use serde::{Deserialize, Serialize};
 
 use super::{Direction, PlaceRecord, TopologicalMap};
@@ -93,6 +95,13 @@ impl Boundaries {
     /// The set of places on a path, as words.
     pub(super) fn on(&self, path: PathId) -> &[u64] {
         &self.words[self.range(path, Set::On)]
+    }
+
+    /// The places on, right of and left of a path, spelled out.
+    pub(super) fn sets(&self, path: PathId) -> [BTreeSet<PlaceId>; SETS] {
+        let places = || (0..64 * self.stride as u32).map(PlaceId::new);
+        [Set::On, Set::Right, Set::Left]
+            .map(|set| places().filter(|&place| self.contains(path, set, place)).collect())
     }
 
     pub(super) fn determined(&self) -> u64 {

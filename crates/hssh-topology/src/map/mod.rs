@@ -3,6 +3,7 @@
 mod boundary;
 mod path;
 mod region;
+mod sanity;
 
 pub use boundary::{BoundaryRelation, PathSides};
 pub use path::{Course, Direction};
@@ -13,6 +14,7 @@ use path::{Joined, PathRecord};
 
 use crate::embedding::{EmbeddedGraph, Link, PendingEdge};
 use crate::ids::{Dart, MapOlp, Olp, PathId, PlaceId, StarId};
+use crate::live::LiveList;
 use crate::star::Star;
 
 /// A topological map: places with stars, links between gateways, pending gateways and paths.
@@ -28,6 +30,8 @@ pub struct TopologicalMap {
     gateways: Vec<MapOlp>,
     graph: EmbeddedGraph,
     paths: Vec<PathRecord>,
+    /// The paths that are no part of another one.
+    live_paths: LiveList,
     boundaries: Boundaries,
     tally: Tally,
     history: Vec<Change>,
@@ -84,6 +88,10 @@ struct Tally {
     closed_ends: u32,
     /// Pending gateways on paths with only one place.
     loose_gateways: u32,
+    /// Paths with at least two places.
+    long_paths: u32,
+    /// Those of them that are circular.
+    long_circles: u32,
     /// The number of pairs ⟨path, place⟩ with the place on the path.
     incidences: u64,
 }
@@ -138,6 +146,7 @@ impl TopologicalMap {
     fn add_path(&mut self, place: PlaceId, pending_ends: u32) -> PathId {
         let path = PathId::new(self.paths.len() as u32);
         self.paths.push(PathRecord::single(pending_ends));
+        self.live_paths.push();
         self.boundaries.push_path(place);
         self.tally.paths += 1;
         self.tally.incidences += 1;
@@ -191,6 +200,7 @@ impl TopologicalMap {
         self.gateways.truncate(self.graph.dart_count() as usize);
         let paths = self.paths.len() - (self.olps.len() - first as usize) / 2;
         self.olps.truncate(first as usize);
+        (paths..self.paths.len()).for_each(|_| self.live_paths.pop());
         self.paths.truncate(paths);
         self.boundaries.truncate(paths);
         self.tally = tally;
@@ -212,6 +222,24 @@ impl TopologicalMap {
     #[must_use]
     pub fn path_count(&self) -> u32 {
         self.tally.paths
+    }
+
+    /// The number of paths with at least two places: f2' of section 4.7.1.
+    #[must_use]
+    pub fn long_path_count(&self) -> u32 {
+        self.tally.long_paths
+    }
+
+    /// How many ends of paths with at least two places are closed. They stay so.
+    #[must_use]
+    pub fn closed_ends_of_long_paths(&self) -> u32 {
+        2 * (self.tally.long_paths - self.tally.long_circles) - self.pending_ends_of_long_paths()
+    }
+
+    /// How many ends of paths with at least two places are pending.
+    #[must_use]
+    pub fn pending_ends_of_long_paths(&self) -> u32 {
+        self.pending_count() - self.tally.loose_gateways
     }
 
     /// The number of closed ends. Every path has two ends, so that at least half as many paths

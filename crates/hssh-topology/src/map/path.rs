@@ -28,7 +28,7 @@ impl Direction {
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(super) struct PathRecord {
     /// How many local paths form it.
-    local_paths: u32,
+    pub(super) local_paths: u32,
     /// How many different places lie on it.
     places: u32,
     /// How many of its two ends are pending gateways; the others are closed. A circular path has no ends.
@@ -52,9 +52,14 @@ impl PathRecord {
         PathRecord { local_paths: 1, places: 1, pending_ends, state: PathState::Open }
     }
 
+    /// Whether it has at least two places.
+    pub(super) fn is_long(&self) -> bool {
+        self.places > 1
+    }
+
     /// How many of the path's pending gateways are on a path with a single place.
     pub(super) fn loose_gateways(&self) -> u32 {
-        if self.places == 1 { self.pending_ends } else { 0 }
+        if self.is_long() { 0 } else { self.pending_ends }
     }
 }
 
@@ -102,8 +107,7 @@ impl TopologicalMap {
 
     /// The paths of the map, in order of creation.
     pub fn paths(&self) -> impl Iterator<Item = PathId> + '_ {
-        let ids = (0..self.paths.len() as u32).map(PathId::new);
-        ids.filter(|path| self.paths[path.index()].state != PathState::Absorbed)
+        self.live_paths.iter().map(PathId::new)
     }
 
     /// How many different places lie on a path.
@@ -176,6 +180,7 @@ impl TopologicalMap {
         if self.path(a) == self.path(b) {
             let (into, before) = (self.path(a), record(a));
             self.tally.loose_gateways -= before.loose_gateways();
+            self.tally.long_circles += u32::from(before.is_long());
             let path = &mut self.paths[into.index()];
             (path.state, path.pending_ends) = (PathState::Circular, 0);
             return Joined { into, before, absorbed: None };
@@ -195,10 +200,13 @@ impl TopologicalMap {
         };
         self.paths[into.index()] = joined;
         self.paths[from.index()].state = PathState::Absorbed;
+        self.live_paths.leave(from.number());
         self.tally.paths -= 1;
         self.tally.incidences -= u64::from(before.places + lost.places - places);
         self.tally.loose_gateways -= before.loose_gateways() + lost.loose_gateways();
         self.tally.loose_gateways += joined.loose_gateways();
+        self.tally.long_paths -= u32::from(before.is_long()) + u32::from(lost.is_long());
+        self.tally.long_paths += u32::from(joined.is_long());
         Joined { into, before, absorbed: Some(Absorbed { at, from, flipped }) }
     }
 
@@ -207,6 +215,7 @@ impl TopologicalMap {
         self.paths[joined.into.index()] = joined.before;
         if let Some(Absorbed { at, from, flipped }) = joined.absorbed {
             self.paths[from.index()].state = PathState::Open;
+            self.live_paths.rejoin(from.number());
             self.rename_path(at, from, flipped);
         }
     }

@@ -47,12 +47,14 @@ fn many_places() {
         measures.push(hssh_topology::Measure::of(&map));
         if [62, 63, 64, 127, 128, 139].contains(&place) {
             recount::check(&map, &catalog);
+            map.sanity_check().unwrap();
         }
     }
     for place in (0..140).rev() {
         assert_eq!(hssh_topology::Measure::of(&map), measures[place]);
         if [130, 63, 40].contains(&place) {
             recount::check(&map, &catalog);
+            map.sanity_check().unwrap();
         }
         let links = usize::from(place % 10 > 0) + usize::from(place >= 10);
         (0..=links).for_each(|_| map.retract());

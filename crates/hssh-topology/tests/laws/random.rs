@@ -122,12 +122,14 @@ impl Growing {
             }
             Change::Retract => self.retract(),
         }
+        self.map.sanity_check().unwrap();
     }
 
     /// Takes back the last change; whether there was one.
     fn retract(&mut self) {
         self.map.retract();
         if let Some(before) = self.before.pop() {
+            self.map.sanity_check().unwrap();
             assert_eq!(format!("{:?}", self.map), before);
         }
     }
