@@ -10,7 +10,7 @@ use common::{Grid, random_planar};
 use hssh_draw::{
     Bearings, Layout, MapOptions, SearchTree, TreeOptions, draw_map, draw_tree, map_to_dot, tree_to_dot,
 };
-use hssh_search::Mapper;
+use hssh_search::{Mapper, Visit};
 use hssh_topology::{Axioms, Hypothesis, Olp, PlaceId, Star, StarCatalog, TopologicalMap};
 
 type Failure = Box<dyn std::error::Error>;
@@ -71,10 +71,10 @@ fn main() -> Result<(), Failure> {
     let mut mapper = Mapper::builder().axioms(axioms).start(&"0+ (1+) (0-) 1-".parse()?)?;
     let corner: Star = "0+ (1+) (0-) 1-".parse()?;
     for _ in 0..3 {
-        mapper.observe(Olp::new(0), Olp::new(3), &corner)?;
+        mapper.observe(Visit::new(Olp::new(0), Olp::new(3), &corner))?;
     }
-    mapper.observe(Olp::new(0), Olp::new(3), &"0+ (1+) 0- 1-".parse()?)?;
-    mapper.observe(Olp::new(0), Olp::new(3), &corner)?;
+    mapper.observe(Visit::new(Olp::new(0), Olp::new(3), &"0+ (1+) 0- 1-".parse()?))?;
+    mapper.observe(Visit::new(Olp::new(0), Olp::new(3), &corner))?;
     mapper.advance();
     let best: Vec<_> = mapper.maps(1).iter().map(|ranked| ranked.node).collect();
     let options = TreeOptions { title: Some("Corners and a T, at most four places".to_owned()), ..options };

@@ -36,4 +36,4 @@ pub use graph::{EdgeKind, PoseGraphOptions, draw_pose_graph};
 pub use grid::{GridPicture, TOLD_WAY, TRUE_WAY, draw_grid};
 pub use layout::{Bearings, Layout, LayoutError};
 pub use map::{MapOptions, draw_map, map_to_dot};
-pub use tree::{Fate, SearchTree, Step, TreeError, TreeNode, TreeOptions, draw_tree, tree_to_dot};
+pub use tree::{Fate, SearchTree, TreeError, TreeNode, TreeOptions, draw_tree, tree_to_dot};

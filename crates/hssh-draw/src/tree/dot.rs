@@ -2,7 +2,7 @@
 
 use std::fmt::Write;
 
-use super::{Fate, SearchTree, TreeError, TreeOptions};
+use super::{Fate, SearchTree, TreeError, TreeOptions, abbreviation};
 use crate::map::quoted;
 
 /// A search tree in Graphviz's language, for `dot`: nodes by number, edges with their letters, refuted
@@ -30,7 +30,7 @@ pub fn tree_to_dot(tree: &SearchTree, options: &TreeOptions) -> Result<String, T
         let frame = if node.is_optimal { ", shape=doublecircle, color=\"#117733\"" } else { "" };
         let _ = writeln!(dot, "  n{index} [label=\"{index}\"{fill}{frame}];");
         if let Some((parent, step)) = node.parent {
-            let _ = writeln!(dot, "  n{parent} -> n{index} [label=\"{}\"];", step.letters());
+            let _ = writeln!(dot, "  n{parent} -> n{index} [label=\"{}\"];", abbreviation(step));
         }
         let (step, sign) = match node.fate {
             Fate::Alive => continue,

@@ -4,7 +4,9 @@ use nalgebra::vector;
 
 use super::arrangement::Arrangement;
 use super::legend::{draw_levels, draw_notes, signs_note, text_size};
-use super::{Fate, SearchTree, Step, TreeNode};
+use hssh_topology::Derivation;
+
+use super::{Fate, SearchTree, TreeNode};
 use crate::svg::{Canvas, Point, number};
 
 /// The room for a leaf, in pixels: little if there are very many.
@@ -31,8 +33,8 @@ pub(super) fn draw_dots(canvas: &mut Canvas, tree: &SearchTree, arrangement: &Ar
     for (index, node) in tree.nodes.iter().enumerate() {
         if let Some((parent, step)) = node.parent {
             let attributes = match step {
-                Step::Expand => r##"stroke="#777777" stroke-width="0.8""##,
-                Step::PredictedConsistent => r##"stroke="#0072b2" stroke-width="1" stroke-dasharray="3 2""##,
+                Derivation::NewPlace | Derivation::Closure(_) => r##"stroke="#777777" stroke-width="0.8""##,
+                Derivation::Predicted => r##"stroke="#0072b2" stroke-width="1" stroke-dasharray="3 2""##,
             };
             canvas.line(at(parent), at(index), attributes);
         }

@@ -5,7 +5,7 @@ use nalgebra::vector;
 use super::arrangement::Arrangement;
 use super::legend::{draw_levels, draw_notes, letters_note, text_size};
 use super::thumbnail::Thumbnail;
-use super::{Fate, SearchTree, TreeError, TreeOptions, dots};
+use super::{Fate, SearchTree, TreeError, TreeOptions, abbreviation, dots};
 use crate::layout::Layout;
 use crate::svg::{Anchor, Canvas, Point};
 
@@ -84,7 +84,7 @@ fn draw_maps(canvas: &mut Canvas, tree: &SearchTree, arrangement: &Arrangement, 
             let from = middle(parent) + vector![0.0, half_height(parent)];
             let to = middle(index) - vector![0.0, half_height(index)];
             canvas.line(from, to, r##"stroke="#555555" stroke-width="1.1""##);
-            letters(canvas, from + (to - from) * 0.55, step.letters());
+            letters(canvas, from + (to - from) * 0.55, abbreviation(step));
         }
         let below = middle(index) + vector![0.0, half_height(index)];
         match node.fate {

@@ -10,27 +10,16 @@ mod thumbnail;
 pub use dot::tree_to_dot;
 pub use figure::draw_tree;
 
-use hssh_search::{Cursor, Derived, Experience, NodeId, Outcome, Tree};
-use hssh_topology::{PlaceId, TopologicalMap};
+use hssh_search::{Cursor, Experience, NodeId, Tree};
+use hssh_topology::{Derivation, Outcome, PlaceId, TopologicalMap};
 
 use crate::layout::{Bearings, LayoutError};
 
-/// How a node follows from its parent.
-#[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub enum Step {
-    /// e: the map was extended.
-    Expand,
-    /// p-c: the map predicted what was seen.
-    PredictedConsistent,
-}
-
-impl Step {
-    /// As the thesis abbreviates it.
-    fn letters(self) -> &'static str {
-        match self {
-            Step::Expand => "e",
-            Step::PredictedConsistent => "p-c",
-        }
+/// The thesis's abbreviation for how a node follows from its parent.
+fn abbreviation(derivation: Derivation) -> &'static str {
+    match derivation {
+        Derivation::Predicted => "p-c",
+        Derivation::NewPlace | Derivation::Closure(_) => "e",
     }
 }
 
@@ -49,7 +38,7 @@ pub enum Fate {
 #[derive(Clone, Debug)]
 pub struct TreeNode {
     /// The index of the parent, which comes before, and how the node follows from it; `None` for the root.
-    pub parent: Option<(usize, Step)>,
+    pub parent: Option<(usize, Derivation)>,
     /// What became of it.
     pub fate: Fate,
     /// Whether it is one of the preferred hypotheses: it gets a frame.
@@ -130,20 +119,16 @@ impl SearchTree {
         let mut cursor = Cursor::new(experience);
         let has_child = children_exist(tree);
         let node = |id: NodeId| {
-            let step = match tree.derived(id) {
-                Derived::Shared => Step::PredictedConsistent,
-                Derived::Root | Derived::Extended(_) => Step::Expand,
-            };
             let picture = (tree.len() <= most_maps).then(|| {
                 let hypothesis = cursor.go_to(id, tree, experience);
                 (hypothesis.map.clone(), hypothesis.position.place)
             });
             let fate = match tree.outcome(id) {
                 Outcome::Refuted => Fate::Refuted,
-                Outcome::Expanded if !has_child[id.0 as usize] => Fate::Removed,
+                Outcome::Expanded if !has_child[id.index()] => Fate::Removed,
                 Outcome::Open | Outcome::Predicted | Outcome::Expanded => Fate::Alive,
             };
-            let parent = tree.parent(id).map(|parent| (parent.0 as usize, step));
+            let parent = tree.parent(id).map(NodeId::index).zip(tree.derivation(id));
             TreeNode { parent, fate, is_optimal: optimal.contains(&id), picture }
         };
         SearchTree { nodes: tree.nodes().map(node).collect(), observations: experience.observations.len() }
@@ -176,7 +161,7 @@ impl SearchTree {
 fn children_exist(tree: &Tree) -> Vec<bool> {
     let mut has_child = vec![false; tree.len()];
     for parent in tree.nodes().filter_map(|node| tree.parent(node)) {
-        has_child[parent.0 as usize] = true;
+        has_child[parent.index()] = true;
     }
     has_child
 }

@@ -1,6 +1,6 @@
 //! Maps and searches to draw, built through the public API of the topological level.
 
-use hssh_search::Mapper;
+use hssh_search::{Mapper, Visit};
 use hssh_topology::{Olp, PendingGateway, PlaceId, Star, StarCatalog, TopologicalMap};
 use rand::RngExt;
 use rand_chacha::ChaCha8Rng;
@@ -80,7 +80,7 @@ impl Grid {
         for travel in route.windows(2) {
             let step = (travel[1].0 - travel[0].0, travel[1].1 - travel[0].1);
             let exit = STEPS.iter().position(|&other| other == step).unwrap() as u32;
-            mapper.observe(Olp::new(exit), Olp::new((exit + 2) % 4), &self.star(travel[1])).unwrap();
+            mapper.observe(Visit::new(Olp::new(exit), Olp::new((exit + 2) % 4), &self.star(travel[1]))).unwrap();
         }
         mapper.advance();
     }

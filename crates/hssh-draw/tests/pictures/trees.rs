@@ -1,8 +1,8 @@
 //! Search trees: a short one as text, and what is refused.
 
-use hssh_draw::{Fate, SearchTree, Step, TreeError, TreeNode, TreeOptions, draw_tree, tree_to_dot};
-use hssh_search::Mapper;
-use hssh_topology::{Axioms, Olp, Star};
+use hssh_draw::{Fate, SearchTree, TreeError, TreeNode, TreeOptions, draw_tree, tree_to_dot};
+use hssh_search::{Mapper, Visit};
+use hssh_topology::{Axioms, Derivation, Olp, Star};
 
 use crate::common::Grid;
 
@@ -13,9 +13,9 @@ fn corners() -> SearchTree {
     let axioms = Axioms { max_places: Some(4), ..Axioms::default() };
     let mut mapper = Mapper::builder().axioms(axioms).start(&corner).unwrap();
     for _ in 0..3 {
-        mapper.observe(Olp::new(0), Olp::new(3), &corner).unwrap();
+        mapper.observe(Visit::new(Olp::new(0), Olp::new(3), &corner)).unwrap();
     }
-    mapper.observe(Olp::new(0), Olp::new(3), &"0+ (1+) 0- 1-".parse().unwrap()).unwrap();
+    mapper.observe(Visit::new(Olp::new(0), Olp::new(3), &"0+ (1+) 0- 1-".parse().unwrap())).unwrap();
     mapper.advance();
     SearchTree::of(mapper.tree(), mapper.experience(), &[], 60)
 }
@@ -56,7 +56,7 @@ fn a_large_tree_has_one_dot_for_each_node() {
 }
 
 fn node(parent: Option<usize>) -> TreeNode {
-    let parent = parent.map(|parent| (parent, Step::Expand));
+    let parent = parent.map(|parent| (parent, Derivation::NewPlace));
     TreeNode { parent, fate: Fate::Alive, is_optimal: false, picture: None }
 }
 
