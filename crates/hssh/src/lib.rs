@@ -2,6 +2,8 @@
 //!
 //! This crate gathers the library crates under one name, for those who want all of them.
 
+pub mod answer;
+
 #[doc(inline)]
 pub use hssh_causal as causal;
 #[doc(inline)]
