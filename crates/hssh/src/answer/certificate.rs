@@ -42,6 +42,13 @@ pub struct Trusted {
     pub least: Option<f64>,
 }
 
+impl Trusted {
+    /// Something that nothing can contradict.
+    pub(crate) fn held(assumption: Assumption, sentence: String) -> Self {
+        Trusted { assumption, sentence, held: true, least: None }
+    }
+}
+
 /// What is known about the maps that were not found.
 #[derive(Clone, PartialEq, Debug, Serialize, Deserialize)]
 pub struct CertificateSummary {

@@ -44,3 +44,35 @@ pub struct TestTravels {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub arrival: Option<EndReference>,
 }
+
+/// What a map predicts of the last travel of a test: the end arrived by, and the star seen there.
+pub(crate) type Predicted = Option<(EndReference, String)>;
+
+impl MapDifference {
+    /// The difference in words; of the test the exits, and what either map predicts.
+    pub(crate) fn sentence(
+        parting: &PartingVisit,
+        test: Option<(&[EndReference], &[Predicted; 2])>,
+    ) -> String {
+        let PartingVisit { visit, first_place, place, .. } = parting;
+        let parted = if first_place == place {
+            format!("visit {visit} sees place {place} from another side.")
+        } else {
+            format!("visit {visit} is at place {first_place} in map 1, at place {place} here.")
+        };
+        let Some((exits, predictions)) = test else {
+            return parted + " No travel through known links tells them apart.";
+        };
+        let leave = |exit: &EndReference| format!("leave place {} by {}", exit.place, exit.end);
+        let way: Vec<String> = exits.iter().map(leave).collect();
+        let [first, here] = predictions.each_ref().map(says);
+        format!("{parted} To find out: {}. Map 1 says: {first}; this one: {here}.", way.join(", "))
+    }
+}
+
+fn says(predicted: &Predicted) -> String {
+    match predicted {
+        None => "anything may follow".to_owned(),
+        Some((end, star)) => format!("place {}, entered by {} of the star {star}", end.place, end.end),
+    }
+}

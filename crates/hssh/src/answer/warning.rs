@@ -79,12 +79,26 @@ impl AnswerWarning {
     }
 }
 
+/// For people, who count from 1.
+impl fmt::Display for Spot {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Spot::Line(line) => write!(f, "line {line}"),
+            Spot::Scan(scan) => write!(f, "scan {}", scan + 1),
+            Spot::Visit(visit) => write!(f, "visit {}", visit + 1),
+            Spot::Map(rank) => write!(f, "map {rank}"),
+        }
+    }
+}
+
 impl fmt::Display for AnswerWarning {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(&self.sentence)?;
-        match self.count {
-            0 | 1 => Ok(()),
-            count => write!(f, " (and {} more of the kind)", count - 1),
+        if self.count < 2 {
+            return Ok(());
         }
+        let others: Vec<String> = self.spots.iter().skip(1).map(Spot::to_string).collect();
+        let rest = if self.count > self.spots.len() as u64 { ", …" } else { "" };
+        write!(f, "; {} more like it: {}{rest}", self.count - 1, others.join(", "))
     }
 }
