@@ -4,9 +4,10 @@ use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
+use hssh::answer::{Answer, PictureError, VerdictKind};
+use hssh::pipeline::{PipelineError, SearchFailure};
 use hssh_causal::ParseError;
-use hssh_draw::{LayoutError, TreeError};
-use hssh_search::{PlacementError, PosteriorError, ThreadsError};
+use hssh_draw::TreeError;
 
 /// How a command ended that did what was asked.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -17,6 +18,17 @@ pub(crate) enum Status {
     NothingConsistent,
     /// A limit or an interruption stopped the search.
     Stopped,
+}
+
+impl Status {
+    /// How a search ended.
+    pub(crate) fn of(answer: &Answer) -> Self {
+        match answer.verdict.kind {
+            _ if !answer.search.stop.is_complete() => Status::Stopped,
+            VerdictKind::NoMap | VerdictKind::NoClosedMap => Status::NothingConsistent,
+            _ => Status::Found,
+        }
+    }
 }
 
 impl From<Status> for ExitCode {
@@ -38,6 +50,10 @@ pub(crate) enum Failure {
     Write { file: PathBuf, error: std::io::Error },
     #[error("{rendered}")]
     Parse { rendered: String },
+    #[error("cannot read the options in {}: {error}\nhelp: `hssh options` prints a file with all defaults", file.display())]
+    ReadOptions { file: PathBuf, error: std::io::Error },
+    #[error("{}:{}:{}: {}\nhelp: `hssh options` prints every option with its default", file.display(), error.line(), error.column(), error.problem())]
+    Options { file: PathBuf, error: Box<hssh::pipeline::OptionsError> },
     #[error("cannot read {}: {error}\nhelp: give the path of a pose graph in g2o or TORO form, or - for standard input", file.display())]
     ReadGraph { file: PathBuf, error: std::io::Error },
     #[error("{}: {error}", file.display())]
@@ -47,15 +63,11 @@ pub(crate) enum Failure {
     #[error("cannot solve the pose graph: {0}")]
     Solve(#[from] hssh_metrics::SolveError),
     #[error(transparent)]
-    Threads(#[from] ThreadsError),
-    #[error("cannot lay out the map: {0}")]
-    Layout(#[from] LayoutError),
+    Picture(#[from] PictureError),
     #[error("cannot draw the search tree: {0}\nhelp: --travels N draws the tree of the first N travels")]
     Tree(#[from] TreeError),
-    #[error("cannot place the map by its odometry: {0}")]
-    Placement(#[from] PlacementError),
-    #[error("cannot weigh the maps: {0}\nhelp: --search breadth-first goes by topology alone")]
-    Posterior(#[from] PosteriorError),
+    #[error("{0}{help}", help = help(.0))]
+    Pipeline(Box<PipelineError>),
     #[error("there is no odometry to write as a pose graph")]
     NoOdometry,
     #[error("there is no map number {asked}: only {found} {explain} the exploration", explain = if *found == 1 { "map explains" } else { "maps explain" })]
@@ -63,17 +75,37 @@ pub(crate) enum Failure {
     #[error(
         "the replay disagrees with the search: {0}\nhelp: this is a bug in hssh; please report it with the exploration"
     )]
-    Disagreement(String),
+    Disagreement(#[from] hssh::answer::DisagreementError),
     #[error(transparent)]
     Grid(#[from] hssh_local::MapError),
+    #[error("the map of the building is too large for a grid: {0}")]
+    TooLarge(#[from] hssh_local::LatticeError),
     #[error("cannot use {}: {error}\nhelp: give the path of a CARMEN log with FLASER messages, plain or gzip, or - for standard input", file.display())]
     ReadLog { file: PathBuf, error: Box<hssh_local::LogError> },
     #[error("{}: {error}", file.display())]
     Survey { file: PathBuf, error: Box<hssh_local::SurveyError> },
+    #[error("nothing is proved, so that there is no certificate: see the verdict above")]
+    NothingProved,
     #[error("{0}")]
     Usage(String),
     #[error("cannot print: {0}")]
     Print(#[from] std::io::Error),
+}
+
+/// What to do instead, on a line of its own.
+fn help(error: &PipelineError) -> &'static str {
+    match error {
+        PipelineError::Search(SearchFailure::Mapper(_)) => {
+            "\nhelp: --search breadth-first goes by topology alone"
+        }
+        _ => "",
+    }
+}
+
+impl From<PipelineError> for Failure {
+    fn from(error: PipelineError) -> Self {
+        Failure::Pipeline(Box::new(error))
+    }
 }
 
 impl Failure {

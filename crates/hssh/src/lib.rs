@@ -2,6 +2,10 @@
 //!
 //! This crate gathers the library crates under one name, for those who want all of them.
 
+pub mod account;
+pub mod answer;
+pub mod pipeline;
+
 #[doc(inline)]
 pub use hssh_causal as causal;
 #[doc(inline)]

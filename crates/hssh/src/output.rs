@@ -14,10 +14,15 @@ pub(crate) fn print(text: &str) -> Result<(), Failure> {
     Ok(out.flush()?)
 }
 
+/// One JSON object.
+pub(crate) fn to_json(value: &impl Serialize) -> Result<String, Failure> {
+    let text = serde_json::to_string_pretty(value).map_err(std::io::Error::from)?;
+    Ok(text + "\n")
+}
+
 /// Prints one JSON object.
 pub(crate) fn print_json(value: &impl Serialize) -> Result<(), Failure> {
-    let text = serde_json::to_string_pretty(value).map_err(std::io::Error::from)?;
-    print(&(text + "\n"))
+    print(&to_json(value)?)
 }
 
 /// Writes a picture and says so on standard error.
@@ -30,9 +35,4 @@ pub(crate) fn write_file(file: &Path, text: &str) -> Result<(), Failure> {
 /// Says on standard error that a file was written.
 pub(crate) fn say_written(file: &Path) {
     let _ = writeln!(std::io::stderr(), "wrote {}", file.display());
-}
-
-/// "1 map", "2 maps".
-pub(crate) fn counted(number: usize, noun: &str) -> String {
-    format!("{number} {noun}{}", if number == 1 { "" } else { "s" })
 }

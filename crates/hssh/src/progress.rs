@@ -5,7 +5,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::thread::Thread;
 use std::time::Duration;
 
-use hssh_search::Monitor;
+use hssh::pipeline::Monitor;
 use indicatif::{HumanCount, ProgressBar, ProgressStyle};
 
 /// A search that takes less than this shows no progress.

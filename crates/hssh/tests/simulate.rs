@@ -22,8 +22,8 @@ fn from_a_floor_to_its_map() {
     assert!(hssh(&["explore", &log, "-o", &exploration]).status.success());
     let mapped = hssh(&["map", &exploration, "--json"]);
     let mapped: serde_json::Value = serde_json::from_slice(&mapped.stdout).expect("the report is JSON");
-    let best = &mapped["ranking"][0];
-    assert!(best["places"] == 4 && best["closed"] == true, "{mapped}");
+    let best = &mapped["maps"][0];
+    assert!(best["measure"]["places"] == 4 && best["closed"] == true, "{mapped}");
     let _ = std::fs::remove_dir_all(folder);
 }
 

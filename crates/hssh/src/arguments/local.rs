@@ -3,24 +3,28 @@
 use std::path::PathBuf;
 
 use clap::Args;
-use hssh_local::{PlaceParameters, SkeletonParameters, SurveyOptions, UnknownSpace};
+use hssh::pipeline::PlaceChoice;
+use hssh_local::{PlaceParameters, UnknownSpace};
 
 #[derive(Debug, Args)]
-pub(crate) struct ExploreOptions {
+pub(crate) struct ExploreArguments {
     /// The log: CARMEN text with FLASER messages, plain or gzip; `-` reads standard input.
     pub(crate) log: PathBuf,
     /// Where to write the exploration; without it, it is printed.
     #[arg(short, long, value_name = "FILE")]
     pub(crate) output: Option<PathBuf>,
+    /// Print what was found as JSON: visits with their scans and stars, and travels with odometry.
+    #[arg(long)]
+    pub(crate) json: bool,
     /// Write pictures of every stage into this folder: the track, and the local map and the star of each visit.
     #[arg(long, value_name = "FOLDER")]
     pub(crate) debug_dir: Option<PathBuf>,
     #[command(flatten)]
-    pub(crate) places: PlaceOptions,
+    pub(crate) places: PlaceArguments,
 }
 
 #[derive(Debug, Args)]
-pub(crate) struct SimulateOptions {
+pub(crate) struct SimulateArguments {
     /// The map: the YAML file of ROS `map_server`.
     pub(crate) map: Option<PathBuf>,
     /// Instead of a map, one of the floors that come with the program, such as `figure-eight`.
@@ -51,15 +55,18 @@ pub(crate) struct SimulateOptions {
     /// Write the truth as JSON: the map's places, and where the robot centered itself.
     #[arg(long, value_name = "FILE")]
     pub(crate) truth: Option<PathBuf>,
+    /// Print one JSON object: the truth, and what the drive took.
+    #[arg(long)]
+    pub(crate) json: bool,
     /// Draw the map with the true way and the way that odometry tells.
     #[arg(long, value_name = "FILE")]
     pub(crate) svg: Option<PathBuf>,
     #[command(flatten)]
-    pub(crate) places: PlaceOptions,
+    pub(crate) places: PlaceArguments,
 }
 
 #[derive(Debug, Args)]
-pub(crate) struct StarsOptions {
+pub(crate) struct StarsArguments {
     /// The map: the YAML file of ROS `map_server`, or a floor plan as a PGM or PNG image; or a laser log in CARMEN
     /// form, of which the places visited are shown.
     pub(crate) map: PathBuf,
@@ -70,7 +77,7 @@ pub(crate) struct StarsOptions {
     #[arg(long, value_name = "X,Y", value_parser = point, allow_hyphen_values = true)]
     pub(crate) at: Option<[f64; 2]>,
     #[command(flatten)]
-    pub(crate) places: PlaceOptions,
+    pub(crate) places: PlaceArguments,
     /// Unknown cells are free, as in floor plans that only have walls.
     #[arg(long)]
     pub(crate) unknown_is_free: bool,
@@ -82,17 +89,17 @@ pub(crate) struct StarsOptions {
     pub(crate) svg: Option<PathBuf>,
 }
 
-impl StarsOptions {
+impl StarsArguments {
     pub(crate) fn parameters(&self) -> PlaceParameters {
         let unknown = if self.unknown_is_free { UnknownSpace::Free } else { UnknownSpace::Wall };
-        self.places.in_grids(unknown)
+        self.places.choice().in_grids(unknown)
     }
 }
 
 /// What counts as a place.
 #[derive(Debug, Args)]
 #[command(next_help_heading = "Places")]
-pub(crate) struct PlaceOptions {
+pub(crate) struct PlaceArguments {
     /// Passages narrower than this many metres are closed [default: 0.6 in grid maps, 0.55 along logs].
     #[arg(long, value_name = "METRES", value_parser = length)]
     pub(crate) narrowest: Option<f64>,
@@ -104,32 +111,18 @@ pub(crate) struct PlaceOptions {
     pub(crate) clutter: Option<f64>,
 }
 
-impl PlaceOptions {
-    /// What they mean in a grid map.
-    pub(crate) fn in_grids(&self, unknown: UnknownSpace) -> PlaceParameters {
-        let usual = SkeletonParameters::default();
-        let skeleton = SkeletonParameters {
-            unknown,
-            clutter: self.clutter.unwrap_or(usual.clutter),
-            narrowest_passage: self.narrowest.unwrap_or(usual.narrowest_passage),
-            shallowest_branch: self.shallowest.unwrap_or(usual.shallowest_branch),
-            ..usual
-        };
-        PlaceParameters { skeleton, ..PlaceParameters::default() }
+impl PlaceArguments {
+    /// The choice that they make.
+    pub(crate) fn choice(&self) -> PlaceChoice {
+        let PlaceArguments { narrowest, shallowest, clutter } = *self;
+        PlaceChoice { narrowest, shallowest, clutter }
     }
 
-    /// What they mean along a log.
-    pub(crate) fn along_logs(&self) -> SurveyOptions {
-        let usual = SurveyOptions::default();
-        let mut options = self.shallowest.map_or(usual, |depth| usual.with_depth(depth));
-        options.place.narrowest_way = self.narrowest.unwrap_or(options.place.narrowest_way);
-        options.place.clutter = self.clutter.unwrap_or(options.place.clutter);
-        options
-    }
-
-    /// Whether nothing was asked for.
-    pub(crate) fn is_empty(&self) -> bool {
-        self.narrowest.is_none() && self.shallowest.is_none() && self.clutter.is_none()
+    /// What options become by them.
+    pub(crate) fn apply(&self, places: &mut PlaceChoice) {
+        places.narrowest = self.narrowest.or(places.narrowest);
+        places.shallowest = self.shallowest.or(places.shallowest);
+        places.clutter = self.clutter.or(places.clutter);
     }
 }
 

@@ -2,16 +2,17 @@
 
 use std::collections::BTreeMap;
 
+use hssh::answer::counted;
 use hssh_causal::Exploration;
 use hssh_causal::schema::{
     Automaton, Change, Refutation, Sight, Trace, Turning, View, numbered_views, view_graph_dot,
 };
 use serde::Serialize;
 
-use crate::arguments::CheckOptions;
+use crate::arguments::CheckArguments;
 use crate::failure::{Failure, Status};
 use crate::input::read_exploration;
-use crate::output::{counted, print, print_json, write_file};
+use crate::output::{print, print_json, write_file};
 
 /// The contents of an exploration in numbers.
 #[derive(Serialize)]
@@ -121,7 +122,7 @@ impl CausalContents {
     }
 }
 
-pub(crate) fn run(options: &CheckOptions) -> Result<Status, Failure> {
+pub(crate) fn run(options: &CheckArguments) -> Result<Status, Failure> {
     let exploration = read_exploration(&options.file)?;
     let mut contents = Contents::of(&exploration);
     if options.schemas || options.dot.is_some() {

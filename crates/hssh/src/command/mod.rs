@@ -8,3 +8,13 @@ pub(crate) mod map;
 pub(crate) mod simulate;
 mod stages;
 pub(crate) mod stars;
+
+use hssh::pipeline::MappingOptions;
+
+use crate::failure::{Failure, Status};
+
+/// `hssh options`: the file of options with its defaults.
+pub(crate) fn print_options() -> Result<Status, Failure> {
+    crate::output::print(MappingOptions::DEFAULTS)?;
+    Ok(Status::Found)
+}

@@ -1,93 +1,59 @@
 //! `hssh simulate`: a robot drives through a grid map and keeps a laser log.
 
-use std::fmt::Write as _;
-
+use hssh::account::DriveAccount;
 use hssh_draw::{GridPicture, TOLD_WAY, TRUE_WAY, draw_grid};
 use hssh_local::{OccupancyGrid, PlaceNumber, UnknownSpace, read_map};
 use hssh_metrics::Pose;
-use hssh_world::robot::{Drive, Ending, Moment, RobotOptions, Stop, Strategy, drive};
+use hssh_world::robot::{Drive, Ending, Moment, RobotOptions, Strategy, drive};
 use hssh_world::{floor_plan, floors};
-use serde::Serialize;
 
-use crate::arguments::SimulateOptions;
+use crate::arguments::SimulateArguments;
 use crate::failure::{Failure, Status};
-use crate::output::{counted, print, write_file};
+use crate::output::{print, to_json, write_file};
 
 /// Metres per cell of the floors that come with the program.
 const RESOLUTION: f64 = 0.1;
 
-/// The truth about a drive, as JSON; metres and radians in the frame of the map.
-#[derive(Serialize)]
-struct Truth {
-    ending: String,
-    places: Vec<PlaceTruth>,
-    connections: Vec<[EndTruth; 2]>,
-    stops: Vec<StopTruth>,
-}
-
-#[derive(Serialize)]
-struct PlaceTruth {
-    center: [f64; 2],
-    star: String,
-}
-
-#[derive(Serialize)]
-struct EndTruth {
-    place: u32,
-    end: String,
-}
-
-#[derive(Serialize)]
-struct StopTruth {
-    /// Seconds since the start.
-    time: f64,
-    pose: Pose,
-    place: Option<u32>,
-    meant: Option<u32>,
-    off_center: Option<f64>,
-    exit: Option<String>,
-}
-
-pub(crate) fn run(options: &SimulateOptions) -> Result<Status, Failure> {
-    let (name, grid) = map(options)?;
-    let robot = robot(options).with_noise(options.noise);
-    let strategy = match &options.visit[..] {
-        [] if options.wander => Strategy::Wander,
+pub(crate) fn run(arguments: &SimulateArguments) -> Result<Status, Failure> {
+    let (name, grid) = map(arguments)?;
+    let robot = robot(arguments).with_noise(arguments.noise);
+    let strategy = match &arguments.visit[..] {
+        [] if arguments.wander => Strategy::Wander,
         [] => Strategy::Cover,
         places => Strategy::Visit(places.iter().copied().map(PlaceNumber).collect()),
     };
-    let drive = drive(&grid, options.start, strategy, &robot, options.seed)
+    let drive = drive(&grid, arguments.start, strategy, &robot, arguments.seed)
         .map_err(|error| Failure::Usage(format!("{name}: {error}")))?;
-    write_file(&options.output, &drive.to_carmen())?;
-    if let Some(file) = &options.truth {
-        let text = serde_json::to_string_pretty(&Truth::of(&drive)).map_err(std::io::Error::from)?;
-        write_file(file, &(text + "\n"))?;
+    write_file(&arguments.output, &drive.to_carmen())?;
+    let account = DriveAccount::new(&name, &drive);
+    if let Some(file) = &arguments.truth {
+        write_file(file, &to_json(&account)?)?;
     }
-    if let Some(file) = &options.svg {
+    if let Some(file) = &arguments.svg {
         write_file(file, &picture(&grid, &drive))?;
     }
-    print(&account(&name, &drive))?;
+    print(&if arguments.json { to_json(&account)? } else { account.to_string() })?;
     Ok(if drive.ending == Ending::Done { Status::Found } else { Status::Stopped })
 }
 
 /// The robot, which takes the same for a place as the one who tells it where to go.
-fn robot(options: &SimulateOptions) -> RobotOptions {
+fn robot(arguments: &SimulateArguments) -> RobotOptions {
     let usual = RobotOptions::default();
-    let mut outlook = options.places.along_logs();
+    let mut outlook = arguments.places.choice().along_logs();
     outlook.place.arrival = usual.outlook.place.arrival;
     // Noise makes passages look narrower; the robot goes where it fits.
     outlook.place.narrowest_way = usual.outlook.place.narrowest_way;
     RobotOptions {
-        travels: options.travels,
-        places: options.places.in_grids(UnknownSpace::Wall),
+        travels: arguments.travels,
+        places: arguments.places.choice().in_grids(UnknownSpace::Wall),
         outlook,
         ..usual
     }
 }
 
 /// The map to drive through, and what to call it.
-fn map(options: &SimulateOptions) -> Result<(String, OccupancyGrid), Failure> {
-    match (&options.map, &options.floor) {
+fn map(arguments: &SimulateArguments) -> Result<(String, OccupancyGrid), Failure> {
+    match (&arguments.map, &arguments.floor) {
         (Some(file), _) => Ok((file.display().to_string(), read_map(file)?)),
         (None, Some(name)) => Ok((name.clone(), floor(name)?)),
         (None, None) => Err(Failure::Usage(format!(
@@ -108,50 +74,6 @@ fn floor(name: &str) -> Result<OccupancyGrid, Failure> {
 fn floor_names() -> String {
     let names: Vec<&str> = floors().iter().map(|floor| floor.name).collect();
     names.join(", ")
-}
-
-impl Truth {
-    fn of(drive: &Drive) -> Self {
-        let graph = &drive.graph;
-        let end_name = |place: PlaceNumber, olp| graph.place(place).star.star.name(olp).to_string();
-        let places = graph.places.iter();
-        let ends = |(place, olp): (PlaceNumber, _)| EndTruth { place: place.0, end: end_name(place, olp) };
-        let stop = |stop: &Stop| StopTruth {
-            time: drive.moments.get(stop.moment).or(drive.moments.last()).map_or(0.0, |moment| moment.time),
-            pose: stop.pose,
-            place: stop.place.map(|place| place.0),
-            meant: stop.meant.map(|place| place.0),
-            off_center: stop.off_center,
-            exit: stop.place.zip(stop.exit).map(|(place, exit)| end_name(place, exit)),
-        };
-        Truth {
-            ending: drive.ending.to_string(),
-            places: places
-                .map(|place| PlaceTruth { center: place.center, star: place.star.star.to_string() })
-                .collect(),
-            connections: graph.connections.iter().map(|found| found.ends.map(ends)).collect(),
-            stops: drive.stops.iter().map(stop).collect(),
-        }
-    }
-}
-
-/// What the robot did, in words.
-fn account(name: &str, drive: &Drive) -> String {
-    let way: f64 =
-        drive.moments.windows(2).map(|pair| pair[0].pose.between(pair[1].pose).translation().norm()).sum();
-    let scans = drive.moments.iter().filter(|moment| moment.scan.is_some()).count();
-    let mut text = format!(
-        "{name}: {}, {}, {way:.0} m, {}; {}\nplaces:",
-        counted(drive.graph.places.len(), "place"),
-        counted(drive.stops.len().saturating_sub(1), "travel"),
-        counted(scans, "scan"),
-        drive.ending
-    );
-    for stop in &drive.stops {
-        let place = stop.place.map_or_else(|| "?".to_owned(), |place| place.0.to_string());
-        let _ = write!(text, " {place}");
-    }
-    text + "\n"
 }
 
 /// The map with its places; over it the true way in blue and the way that odometry tells in orange.

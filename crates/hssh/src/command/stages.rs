@@ -4,8 +4,8 @@ use std::path::{Path, PathBuf};
 
 use hssh_draw::{GridPicture, TRUE_WAY, draw_grid};
 use hssh_local::{
-    FreeSpace, LaserLog, LatticeError, LocalMapOptions, OccupancyGrid, Skeleton, SkeletonParameters, Survey,
-    Visit, global_map, write_png,
+    FreeSpace, LaserLog, LocalMapOptions, OccupancyGrid, Skeleton, SkeletonParameters, Survey, Visit,
+    global_map, write_png,
 };
 use hssh_metrics::Pose;
 
@@ -32,7 +32,7 @@ pub(crate) fn draw_survey(log: &LaserLog, survey: &Survey, folder: &Path) -> Res
         ways: vec![(poses.iter().map(|pose| [pose.x, pose.y]).collect(), TRUE_WAY)],
         ..GridPicture::default()
     };
-    let all_scans = |poses: &[Pose]| global_map(log, poses, &LocalMapOptions::default()).map_err(too_large);
+    let all_scans = |poses: &[Pose]| global_map(log, poses, &LocalMapOptions::default());
     write(&folder.join("1-odometry.svg"), &all_scans(&told)?, &picture(&told, Vec::new()))?;
     let matched: Vec<Pose> = survey.track.scans.iter().map(|scan| scan.pose).collect();
     let center = |visit: &Visit| [visit.frame.x, visit.frame.y];
@@ -58,9 +58,4 @@ pub(crate) fn draw_survey(log: &LaserLog, survey: &Survey, folder: &Path) -> Res
 
 fn write(file: &Path, grid: &OccupancyGrid, picture: &GridPicture<'_>) -> Result<(), Failure> {
     write_file(file, &draw_grid(grid, picture))
-}
-
-/// That scans lie too far apart for one grid.
-pub(crate) fn too_large(error: LatticeError) -> Failure {
-    Failure::Usage(format!("the map of the building is too large for a grid: {error}"))
 }

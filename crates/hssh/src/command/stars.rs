@@ -2,6 +2,8 @@
 
 use std::path::Path;
 
+use hssh::answer::counted;
+use hssh::pipeline::{MappingOptions, SurveyedLog};
 use hssh_draw::{GridPicture, draw_grid};
 use hssh_local::{
     DistanceField, DoorParameters, Gateway, LocalMapOptions, LocalStar, Neighborhood, Occupancy,
@@ -11,11 +13,10 @@ use hssh_local::{
 use hssh_metrics::Pose;
 use serde::Serialize;
 
-use crate::arguments::StarsOptions;
-use crate::command::explore::{read_log, surveyed};
+use crate::arguments::StarsArguments;
 use crate::failure::{Failure, Status};
-use crate::input::is_log;
-use crate::output::{counted, print, print_json, write_file};
+use crate::input::{holds_log, surveyed};
+use crate::output::{print, print_json, write_file};
 
 /// How far the part of the map that is looked at around one point reaches, in metres, beyond the shallowest way out.
 const MARGIN: f64 = 6.5;
@@ -68,8 +69,8 @@ struct EndReport {
     end: String,
 }
 
-pub(crate) fn run(options: &StarsOptions) -> Result<Status, Failure> {
-    if is_log(&options.map)? {
+pub(crate) fn run(options: &StarsArguments) -> Result<Status, Failure> {
+    if holds_log(&options.map)? {
         return along(options);
     }
     let parameters = options.parameters();
@@ -100,7 +101,7 @@ fn read(file: &Path, resolution: Option<f64>) -> Result<OccupancyGrid, Failure> 
 fn everywhere(
     grid: &OccupancyGrid,
     parameters: &PlaceParameters,
-    options: &StarsOptions,
+    options: &StarsArguments,
 ) -> Result<Status, Failure> {
     let graph = PlaceGraph::new(grid, parameters).map_err(|error| failure(&options.map, error))?;
     if let Some(file) = &options.svg {
@@ -120,9 +121,10 @@ fn everywhere(
 }
 
 /// The places that a robot visited, in the frame of its track.
-fn along(options: &StarsOptions) -> Result<Status, Failure> {
-    let log = read_log(&options.map)?;
-    let survey = surveyed(&options.map, &log, &options.places.along_logs())?;
+fn along(options: &StarsArguments) -> Result<Status, Failure> {
+    let usual = MappingOptions::default();
+    let SurveyedLog { log, survey } =
+        surveyed(&options.map, &MappingOptions { places: options.places.choice(), ..usual })?;
     if let Some(file) = &options.svg {
         let track: Vec<Pose> = survey.track.scans.iter().map(|scan| scan.pose).collect();
         let grid = global_map(&log, &track, &LocalMapOptions::default())
@@ -164,7 +166,7 @@ fn around(
     grid: &OccupancyGrid,
     point: [f64; 2],
     parameters: &PlaceParameters,
-    options: &StarsOptions,
+    options: &StarsArguments,
 ) -> Result<Status, Failure> {
     let outside = || Failure::Usage(format!("the point ({}, {}) is not on the map", point[0], point[1]));
     let side = 2.0 * (parameters.skeleton.shallowest_branch + MARGIN);

@@ -12,7 +12,7 @@ use hssh_metrics::{
 };
 use nalgebra::Matrix2;
 
-use crate::arguments::GraphOptions;
+use crate::arguments::GraphArguments;
 use crate::failure::{Failure, Status};
 use crate::output::{print, print_json, write_file};
 
@@ -22,7 +22,7 @@ use report::Report;
 /// Up to this many poses are drawn with the ellipse of their covariance.
 const MOST_ELLIPSES: usize = 40;
 
-pub(crate) fn run(options: &GraphOptions) -> Result<Status, Failure> {
+pub(crate) fn run(options: &GraphArguments) -> Result<Status, Failure> {
     let started = Instant::now();
     let mut file = read(options)?;
     let reading = started.elapsed().as_secs_f64();
@@ -44,7 +44,7 @@ pub(crate) fn run(options: &GraphOptions) -> Result<Status, Failure> {
 }
 
 /// The pose graph in the file, or on standard input; one without poses is refused.
-fn read(options: &GraphOptions) -> Result<GraphFile, Failure> {
+fn read(options: &GraphArguments) -> Result<GraphFile, Failure> {
     let file = &options.file;
     let unreadable = |error| Failure::ReadGraph { file: file.clone(), error };
     let reader: Box<dyn BufRead> = if file.as_os_str() == "-" {
@@ -80,7 +80,7 @@ fn edge_kinds(graph: &PoseGraph, weights: &[f64]) -> Vec<EdgeKind> {
 
 /// Writes what was asked for: the picture, and the optimized graph and its Bayes network without refused edges.
 fn write_files(
-    options: &GraphOptions,
+    options: &GraphArguments,
     mut file: GraphFile,
     kinds: &[EdgeKind],
     optimum: &Optimum,

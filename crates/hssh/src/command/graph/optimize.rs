@@ -7,7 +7,7 @@ use hssh_metrics::{
     odometry_poses, relax, screen_closures, solve, solve_from_anywhere, solve_robustly,
 };
 
-use crate::arguments::{GraphOptions, KernelOption, MethodOption, StartOption};
+use crate::arguments::{GraphArguments, KernelOption, MethodOption, StartOption};
 use crate::failure::Failure;
 
 /// Sweeps of relaxation if no other number is asked for: one costs as much as a few edges, and it takes many.
@@ -34,7 +34,7 @@ pub(super) struct Optimum {
 }
 
 /// Minimizes as the options say; every component of the graph must have an anchor.
-pub(super) fn optimize(options: &GraphOptions, file: &GraphFile) -> Result<Optimum, Failure> {
+pub(super) fn optimize(options: &GraphArguments, file: &GraphFile) -> Result<Optimum, Failure> {
     let solver = Options {
         method: method(options.method),
         max_iterations: options.max_iterations.unwrap_or(Options::default().max_iterations),
@@ -81,7 +81,7 @@ fn method(option: MethodOption) -> Method {
 }
 
 /// The graph at the poses to start from.
-fn started(options: &GraphOptions, file: &GraphFile) -> Result<PoseGraph, Failure> {
+fn started(options: &GraphArguments, file: &GraphFile) -> Result<PoseGraph, Failure> {
     let mut graph = file.graph.clone();
     let resists_outliers = options.robust.is_some() || options.graduated;
     let poses = match options.start {

@@ -2,12 +2,12 @@
 
 use std::fmt;
 
+use hssh::answer::counted;
 use hssh_draw::EdgeKind;
 use hssh_metrics::{Edge, GraphFile, PoseId};
 use serde::Serialize;
 
 use super::optimize::Optimum;
-use crate::output::counted;
 
 /// How many edges and skipped lines the text lists.
 const MOST_LISTED: usize = 8;

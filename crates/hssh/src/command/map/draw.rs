@@ -1,102 +1,92 @@
-//! The pictures of the best maps and of the search tree, and the pose graph of the best map.
+//! The pictures of the best maps and of the search tree, the pose graph of each, and the grid of the building.
 
 use std::path::{Path, PathBuf};
 
-use hssh_draw::{
-    Bearings, Layout, MapOptions as DrawOptions, SearchTree, TreeOptions, draw_map, draw_tree, map_to_dot,
-    tree_to_dot,
-};
-use hssh_metrics::{GraphFile, Marginals, PoseGraph};
-use hssh_search::{Cursor, Experience, NodeId, Tree};
-use nalgebra::Matrix2;
+use hssh::answer::{Answer, AnsweredMap, MapPicture, Objective};
+use hssh::pipeline::{Input, Mapped};
+use hssh_draw::{Bearings, TreeOptions, draw_tree, tree_to_dot};
+use hssh_local::{write_map, write_png};
+use hssh_metrics::GraphFile;
 
-use super::Source;
-use crate::arguments::MapOptions;
+use crate::arguments::MapArguments;
 use crate::command::stages::{building_file, map_file};
 use crate::failure::Failure;
-use crate::output::write_file;
-
-/// What there is to draw.
-#[derive(Clone, Copy)]
-pub(super) struct Pictures<'a> {
-    pub(super) source: &'a Source,
-    pub(super) tree: &'a Tree,
-    pub(super) experience: &'a Experience,
-    /// The maps that are equally good, each with its pose graph, laid out, if it has odometry.
-    pub(super) best: &'a [(NodeId, Option<PoseGraph>)],
-    /// What they are, in the singular.
-    pub(super) kind: &'static str,
-}
+use crate::output::{say_written, write_file};
 
 /// Whether any picture or file is asked for.
-pub(super) fn is_asked(options: &MapOptions) -> bool {
-    let files = [&options.svg, &options.dot, &options.tree, &options.g2o, &options.grid, &options.debug_dir];
-    files.iter().any(|file| file.is_some())
+pub(super) fn is_asked(arguments: &MapArguments) -> bool {
+    let MapArguments { svg, dot, tree, g2o, grid, debug_dir, .. } = arguments;
+    [svg, dot, tree, g2o, grid, debug_dir].iter().any(|file| file.is_some())
 }
 
-/// Draws the tree, and the best maps.
-pub(super) fn draw(options: &MapOptions, pictures: &Pictures<'_>) -> Result<(), Failure> {
-    let Pictures { source, tree, experience, best, kind } = *pictures;
-    let exploration = &source.exploration;
-    let bearings = Bearings(exploration.star_types().iter().map(|named| named.bearings.clone()).collect());
-    if let Some(file) = &options.tree {
-        let drawn = TreeOptions { bearings: bearings.clone(), ..TreeOptions::default() };
-        let nodes: Vec<NodeId> = best.iter().map(|(node, _)| *node).collect();
-        let tree = SearchTree::of(tree, experience, &nodes, drawn.most_maps);
-        let is_dot = file.extension().is_some_and(|ending| ending == "dot");
-        let text = if is_dot { tree_to_dot(&tree, &drawn)? } else { draw_tree(&tree, &drawn)? };
-        write_file(file, &text)?;
+/// Draws the tree, and the maps that are as good as the first.
+pub(super) fn draw(arguments: &MapArguments, input: &Input, mapped: &Mapped) -> Result<(), Failure> {
+    if let Some(file) = &arguments.tree {
+        draw_search(file, input, mapped)?;
     }
-    let mut cursor = Cursor::new(experience);
-    for (index, (node, graph)) in best.iter().enumerate() {
-        let node = *node;
+    let best: Vec<&AnsweredMap> = mapped.answer.maps.iter().filter(|map| map.tied).collect();
+    for (index, map) in best.iter().enumerate() {
+        let MapArguments { svg, dot, g2o, grid, debug_dir, .. } = arguments;
         let [map_stage, building_stage] =
-            [map_file, building_file].map(|stage| options.debug_dir.as_deref().map(stage));
-        let files = [&options.svg, &map_stage, &options.dot, &options.g2o, &options.grid, &building_stage]
-            .map(|file| numbered(file.as_deref(), index));
-        if files.iter().all(Option::is_none) {
+            [map_file, building_file].map(|stage| debug_dir.as_deref().map(stage));
+        let files = [svg, &map_stage, dot, g2o, grid, &building_stage];
+        if files.iter().all(|file| file.is_none()) {
             break;
         }
-        let [svg, map_stage, dot, g2o, grid, building_stage] = files;
-        let visits = cursor.visits(node, tree, experience);
-        let hypothesis = cursor.go_to(node, tree, experience);
-        let map = &hypothesis.map;
-        let layout = match graph {
-            Some(graph) => {
-                let layout = Layout::measured(map, graph.poses().to_vec(), &bearings)?;
-                layout.with_covariances(covariances(graph)?)
-            }
-            None => Layout::schematic(map, &bearings)?,
-        };
-        let drawn = DrawOptions {
-            title: Some(title(&options.file, index, best.len(), kind)),
-            current: Some(hypothesis.position.place),
-            star_names: exploration.star_types().iter().map(|named| named.name.clone()).collect(),
-            ..DrawOptions::default()
-        };
+        let [svg, map_stage, dot, g2o, grid, building_stage] =
+            files.map(|file| numbered(file.as_deref(), index));
+        let title = title(&arguments.file, index, best.len(), kind(&mapped.answer));
+        let picture = MapPicture::new(map, Some(title))?;
         for file in [svg, map_stage].into_iter().flatten() {
-            write_file(&file, &draw_map(map, &layout, &drawn))?;
+            write_file(&file, &picture.to_svg())?;
         }
         if let Some(file) = dot {
-            write_file(&file, &map_to_dot(map, &experience.catalog, &drawn))?;
+            write_file(&file, &picture.to_dot())?;
         }
-        if let (Some(surveyed), Some(graph)) = (&source.surveyed, graph) {
-            for file in [grid, building_stage].into_iter().flatten() {
-                surveyed.write_grid(&file, &visits, graph)?;
-            }
+        let rank = index + 1;
+        let graph = mapped.pose_graph(rank);
+        for file in [grid, building_stage].into_iter().flatten().filter(|_| graph.is_some()) {
+            write_building(&file, input, mapped, rank)?;
         }
         if let Some(file) = g2o {
-            let graph = graph.as_ref().ok_or(Failure::NoOdometry)?;
+            let graph = graph.ok_or(Failure::NoOdometry)?;
             write_file(&file, &GraphFile::from(graph.clone()).to_g2o())?;
         }
     }
     Ok(())
 }
 
-/// Of the position of each place, in the frame of the first one.
-fn covariances(graph: &PoseGraph) -> Result<Vec<Matrix2<f64>>, Failure> {
-    let marginals = Marginals::new(graph)?;
-    Ok(graph.pose_ids().map(|pose| marginals.covariance(pose).fixed_view::<2, 2>(0, 0).into()).collect())
+fn draw_search(file: &Path, input: &Input, mapped: &Mapped) -> Result<(), Failure> {
+    let named = input.as_exploration().star_types().iter();
+    let bearings = Bearings(named.map(|named| named.bearings.clone()).collect());
+    let drawn = TreeOptions { bearings, ..TreeOptions::default() };
+    let Some(tree) = mapped.tree(drawn.most_maps) else { return Ok(()) };
+    let is_dot = file.extension().is_some_and(|ending| ending == "dot");
+    let text = if is_dot { tree_to_dot(&tree, &drawn)? } else { draw_tree(&tree, &drawn)? };
+    write_file(file, &text)
+}
+
+/// Writes the grid of the building, for ROS `map_server` if the file ends so.
+fn write_building(file: &Path, input: &Input, mapped: &Mapped, rank: usize) -> Result<(), Failure> {
+    let grid = mapped.building(input, rank)?;
+    let is_yaml = file.extension().is_some_and(|ending| ending == "yaml" || ending == "yml");
+    if is_yaml {
+        write_map(&grid, file)?
+    } else {
+        write_png(&grid, file)?
+    }
+    say_written(file);
+    Ok(())
+}
+
+/// What the best maps are, in the singular.
+fn kind(answer: &Answer) -> &'static str {
+    match (answer.search.objective, answer.certificate.proved) {
+        (Objective::Preference, true) => "optimal map",
+        (Objective::Preference, false) => "best map found",
+        (Objective::Posterior, true) => "most probable map",
+        (Objective::Posterior, false) => "most probable map found",
+    }
 }
 
 fn title(file: &Path, index: usize, best: usize, kind: &str) -> String {

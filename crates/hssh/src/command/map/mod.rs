@@ -1,58 +1,55 @@
-//! `hssh map`: the maps that explain an exploration, ranked and drawn.
+//! `hssh map`: the maps that explain an exploration or a log, ranked and drawn.
 
 mod draw;
-mod log;
-pub(crate) mod preferred;
-pub(crate) mod probable;
 
-use hssh_causal::Exploration;
-use hssh_search::LevelCounts;
+use hssh::answer::Listing;
+use hssh::pipeline::{Input, Mapped, MappingOptions, SearchMethod, map};
 
-use crate::arguments::{MapOptions, Task};
+use crate::arguments::MapArguments;
+use crate::command::stages::draw_survey;
 use crate::failure::{Failure, Status};
-use crate::input::{is_log, read_exploration};
-use log::Surveyed;
+use crate::input::{read_input, warn};
+use crate::output::{print, write_file};
+use crate::progress::watched;
 
-/// What maps are to explain.
-pub(crate) struct Source {
-    pub(crate) exploration: Exploration,
-    /// The laser log that it was made of.
-    surveyed: Option<Surveyed>,
-}
-
-pub(crate) fn run(options: &MapOptions) -> Result<Status, Failure> {
-    let travels = options.search.travels.unwrap_or(usize::MAX);
-    let mut source = read(options)?;
-    source.exploration = source.exploration.prefix(travels);
-    match options.search.task(&source.exploration)? {
-        Task::Prefer(strategy) => preferred::run(options, strategy, &source),
-        Task::Weigh(order) => probable::run(options, order, &source),
-        Task::Count if draw::is_asked(options) => {
-            let help = "counting keeps no maps to draw: choose another --search for pictures";
-            Err(Failure::Usage(help.to_owned()))
-        }
-        Task::Count => preferred::run_count(options, &source.exploration),
+pub(crate) fn run(arguments: &MapArguments) -> Result<Status, Failure> {
+    let options = arguments.options()?;
+    if options.search.method == Some(SearchMethod::Count) && draw::is_asked(arguments) {
+        let help = "counting keeps no maps to draw: choose another --search for pictures";
+        return Err(Failure::Usage(help.to_owned()));
     }
-}
-
-/// Which travel no map explains, by how many hypotheses explain so many travels.
-fn none_survives(levels: &[LevelCounts]) -> String {
-    let travel = levels.iter().position(|level| level.nodes == 0).unwrap_or(levels.len());
-    format!(
-        "No map explains the exploration: none survives travel {travel}. Is a star wrong, or an axiom too strict? \
-         --travels {} maps what was before.\n",
-        travel.saturating_sub(1)
-    )
-}
-
-fn read(options: &MapOptions) -> Result<Source, Failure> {
-    if is_log(&options.file)? {
-        return log::read(&options.file, &options.places, options.debug_dir.as_deref());
+    let input = read_input(&arguments.file, &options)?;
+    match (input.as_surveyed(), &arguments.debug_dir) {
+        (None, _) => refuse_what_needs_a_log(arguments)?,
+        (Some(surveyed), Some(folder)) => draw_survey(&surveyed.log, &surveyed.survey, folder)?,
+        (Some(_), None) => {}
     }
-    let is_asked = options.grid.is_some() || options.likeness != 0.0 || options.debug_dir.is_some();
-    if is_asked || !options.places.is_empty() {
+    let mapped = searched(&input, &options)?;
+    print(&match arguments.json {
+        true => mapped.answer.to_json(),
+        false => mapped.answer.to_text(Listing { levels: arguments.levels }),
+    })?;
+    if let Some(file) = &arguments.certificate {
+        write_file(file, &mapped.certificate(&input).ok_or(Failure::NothingProved)?)?;
+    }
+    draw::draw(arguments, &input, &mapped)?;
+    Ok(Status::of(&mapped.answer))
+}
+
+/// Searches with a progress line; Ctrl-C leaves what is known so far.
+pub(crate) fn searched(input: &Input, options: &MappingOptions) -> Result<Mapped, Failure> {
+    let travels = input.as_exploration().travels().len().min(options.limits.travels.unwrap_or(usize::MAX));
+    let mapped = watched(travels, |monitor| map(input, options, monitor))?;
+    let known = input.as_surveyed().map_or(0, |surveyed| surveyed.warnings().len());
+    warn(mapped.answer.input.name.as_ref(), &mapped.answer.warnings[known..]);
+    Ok(mapped)
+}
+
+fn refuse_what_needs_a_log(arguments: &MapArguments) -> Result<(), Failure> {
+    let is_asked = arguments.grid.is_some() || arguments.likeness.is_some() || arguments.debug_dir.is_some();
+    if is_asked || !arguments.places.choice().is_usual() {
         let help = "--grid, --likeness, --debug-dir and what counts as a place need a laser log: an exploration has no scans";
         return Err(Failure::Usage(help.to_owned()));
     }
-    Ok(Source { exploration: read_exploration(&options.file)?, surveyed: None })
+    Ok(())
 }

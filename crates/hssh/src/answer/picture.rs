@@ -1,0 +1,78 @@
+//! Pictures of answered maps: as SVG and as Graphviz DOT.
+
+use hssh_draw::{Bearings, Layout, LayoutError, MapOptions, draw_map, map_to_dot};
+use hssh_metrics::Pose;
+use hssh_topology::PlaceId;
+use nalgebra::Matrix2;
+
+use super::error::DisagreementError;
+use super::map::AnsweredMap;
+use super::rebuild::RebuiltMap;
+
+/// A map ready to be drawn.
+#[derive(Clone, Debug)]
+pub struct MapPicture {
+    rebuilt: RebuiltMap,
+    layout: Layout,
+    options: MapOptions,
+}
+
+/// Why a map cannot be drawn.
+#[derive(Clone, PartialEq, Debug, thiserror::Error)]
+pub enum PictureError {
+    /// It is no map.
+    #[error(transparent)]
+    Map(#[from] DisagreementError),
+    /// It cannot be laid out.
+    #[error("cannot lay out the map: {0}")]
+    Layout(#[from] LayoutError),
+}
+
+impl MapPicture {
+    /// The picture of a map under a title: with its places where they are if that is known, else in a schematic layout.
+    ///
+    /// # Errors
+    /// If the visits of the map do not lead to it, or it cannot be laid out.
+    pub fn new(map: &AnsweredMap, title: Option<String>) -> Result<Self, PictureError> {
+        let rebuilt = map.rebuild()?;
+        let bearings = map.places.iter().map(|place| place.ends.iter().map(|end| end.bearing).collect());
+        let bearings = Bearings(bearings.collect());
+        let placed: Option<Vec<Pose>> = map
+            .places
+            .iter()
+            .map(|place| place.pose.map(|pose| Pose { x: pose.x, y: pose.y, theta: pose.theta }))
+            .collect();
+        let layout = match placed {
+            Some(poses) => {
+                Layout::measured(&rebuilt.map, poses, &bearings)?.with_covariances(covariances(map))
+            }
+            None => Layout::schematic(&rebuilt.map, &bearings)?,
+        };
+        let options = MapOptions {
+            title,
+            current: Some(PlaceId::new(map.current.place)),
+            star_names: map.places.iter().map(|place| place.star.clone()).collect(),
+            ..MapOptions::default()
+        };
+        Ok(MapPicture { rebuilt, layout, options })
+    }
+
+    /// As SVG.
+    #[must_use]
+    pub fn to_svg(&self) -> String {
+        draw_map(&self.rebuilt.map, &self.layout, &self.options)
+    }
+
+    /// For Graphviz.
+    #[must_use]
+    pub fn to_dot(&self) -> String {
+        map_to_dot(&self.rebuilt.map, &self.rebuilt.catalog, &self.options)
+    }
+}
+
+/// Of the position of each place, if they are known.
+fn covariances(map: &AnsweredMap) -> Vec<Matrix2<f64>> {
+    let position = |covariance: [[f64; 3]; 3]| Matrix2::from_fn(|row, column| covariance[row][column]);
+    let all = map.places.iter().map(|place| Some(position(place.pose?.covariance?)));
+    all.collect::<Option<_>>().unwrap_or_default()
+}

@@ -1,0 +1,171 @@
+//! How the tree of hypotheses was searched, and what that took.
+
+use std::fmt;
+
+use hssh_topology::Removals;
+use serde::{Deserialize, Serialize};
+
+/// What makes one map better than another.
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Objective {
+    /// The order of preference over topology (section 2.3.2).
+    Preference,
+    /// The posterior probability, given measured travels (chapter 4).
+    Posterior,
+}
+
+/// In which order hypotheses were looked at.
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum SearchOrder {
+    /// All, level by level.
+    BreadthFirst,
+    /// The best one first, until it explains everything.
+    BestFirst,
+    /// The best one of each number of travels explained in turn, until the answer is proved.
+    Cyclic,
+    /// By a bound, until the answer is proved.
+    Proof,
+    /// All, only to be counted.
+    Count,
+}
+
+/// Why a search stopped.
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum StopCause {
+    /// It has not begun.
+    NotSearched,
+    /// The whole tree was searched.
+    Exhausted,
+    /// The first map was found that explains everything.
+    Found,
+    /// No other map is better: proved.
+    Proved,
+    /// The limit on hypotheses.
+    NodeLimit,
+    /// The limit on time.
+    TimeLimit,
+    /// The limit on memory.
+    MemoryLimit,
+    /// Somebody asked it to stop.
+    Interrupted,
+}
+
+impl StopCause {
+    /// Whether the search came to its own end.
+    #[must_use]
+    pub fn is_complete(self) -> bool {
+        matches!(self, StopCause::Exhausted | StopCause::Found | StopCause::Proved)
+    }
+}
+
+impl fmt::Display for StopCause {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.pad(match self {
+            StopCause::NotSearched => "not searched yet",
+            StopCause::Exhausted => "searched everything",
+            StopCause::Found => "found a map",
+            StopCause::Proved => "proved the best map",
+            StopCause::NodeLimit => "stopped by the node limit",
+            StopCause::TimeLimit => "stopped by the time limit",
+            StopCause::MemoryLimit => "stopped by the memory limit",
+            StopCause::Interrupted => "interrupted",
+        })
+    }
+}
+
+/// The hypotheses that explain the same number of travels.
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Serialize, Deserialize)]
+pub struct SearchLevel {
+    /// How many travels they explain.
+    pub travels: u64,
+    /// How many were made.
+    pub nodes: u64,
+    /// Maps made for them.
+    pub maps: u64,
+    /// How many the next travel refuted.
+    pub refuted: u64,
+}
+
+/// The maps found, by kind. With an order that does not keep all maps, only those kept are counted.
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Default, Serialize, Deserialize)]
+pub struct FoundCounts {
+    /// All that explain what is explained.
+    pub maps: u64,
+    /// How many are as good as the first.
+    pub tied: u64,
+    /// Without pending gateways.
+    pub closed: u64,
+    /// Without pending gateways on paths with a single place.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub nearly_closed: Option<u64>,
+    /// Closed, no two paths sharing two places, no three forming a triangle.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub perpendicular: Option<u64>,
+}
+
+/// The account of a search.
+#[derive(Clone, PartialEq, Debug, Serialize, Deserialize)]
+pub struct SearchSummary {
+    /// What made one map better than another.
+    pub objective: Objective,
+    /// In which order hypotheses were looked at.
+    pub order: SearchOrder,
+    /// Whether closed maps only were accepted.
+    pub closed_only: bool,
+    /// Why it stopped.
+    pub stop: StopCause,
+    /// Hypotheses made: the root and every child of every step.
+    pub nodes: u64,
+    /// Maps made: the root's and one for every child of an expansion.
+    pub maps_made: u64,
+    /// Hypotheses that the next travel refuted.
+    pub refuted: u64,
+    /// Hypotheses that the recursive step was applied to.
+    pub expanded: u64,
+    /// Layouts found by least squares.
+    pub layouts: u64,
+    /// The maps found.
+    pub found: FoundCounts,
+    /// Hypotheses turned down because a closed map was asked for and none can come of them.
+    pub rejected: u64,
+    /// Successors that each axiom removed; absent if they were not counted.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub removals: Option<Removals>,
+    /// By number of travels explained.
+    pub levels: Vec<SearchLevel>,
+    /// Time taken.
+    pub seconds: f64,
+    /// Memory of the tree and of what waits to be searched.
+    pub bytes: u64,
+}
+
+impl SearchSummary {
+    /// How it was searched, in words.
+    #[must_use]
+    pub fn name(&self) -> &'static str {
+        match (self.objective, self.order, self.closed_only) {
+            (_, SearchOrder::Count, _) => "exhaustive counting",
+            (Objective::Preference, SearchOrder::BreadthFirst, _) => "breadth-first",
+            (Objective::Preference, SearchOrder::BestFirst, false) => "best-first",
+            (Objective::Preference, SearchOrder::BestFirst, true) => "best-first, back until closed",
+            (Objective::Preference, SearchOrder::Cyclic, false) => "cyclic best-first with proof",
+            (Objective::Preference, SearchOrder::Cyclic, true) => "cyclic best-first with proof, closed maps",
+            (Objective::Preference, SearchOrder::Proof, false) => "best-first with proof",
+            (Objective::Preference, SearchOrder::Proof, true) => "best-first with proof, closed maps",
+            (Objective::Posterior, SearchOrder::BreadthFirst, _) => "breadth-first by posterior",
+            (Objective::Posterior, SearchOrder::BestFirst, false) => "best-first by posterior",
+            (Objective::Posterior, SearchOrder::BestFirst, true) => {
+                "best-first by posterior, back until closed"
+            }
+            (Objective::Posterior, SearchOrder::Cyclic, false) => "posterior with proof",
+            (Objective::Posterior, SearchOrder::Cyclic, true) => "posterior with proof, closed maps",
+            (Objective::Posterior, SearchOrder::Proof, false) => "posterior with proof, least bound first",
+            (Objective::Posterior, SearchOrder::Proof, true) => {
+                "posterior with proof, least bound first, closed maps"
+            }
+        }
+    }
+}

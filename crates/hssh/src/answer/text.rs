@@ -1,0 +1,177 @@
+//! An answer as text: the account of the search, the verdict, and the ranking as a table.
+
+use std::fmt::Write as _;
+
+use hssh_topology::Axiom;
+
+use super::certificate::Worth;
+use super::map::AnsweredMap;
+use super::search::{Objective, SearchOrder};
+use super::verdict::VerdictKind;
+use super::{Answer, Assumption};
+
+/// What to print of an answer.
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
+pub struct Listing {
+    /// Also what the search made of each travel, and what that took.
+    pub levels: bool,
+}
+
+impl Answer {
+    /// The answer for people to read.
+    #[must_use]
+    pub fn to_text(&self, listing: Listing) -> String {
+        let mut text = self.account();
+        if listing.levels {
+            text += &self.levels();
+        }
+        text += &self.conclusion();
+        text += &self.ranking();
+        text
+    }
+
+    /// What the search did.
+    fn account(&self) -> String {
+        let (input, search, certificate) = (&self.input, &self.search, &self.certificate);
+        let mut text = format!(
+            "{}: {} ({} of {} travels explained)\n",
+            search.name(),
+            search.stop,
+            input.explained,
+            input.considered
+        );
+        let found = &search.found;
+        let tied = if certificate.proved { "optimal" } else { "share the best rank" };
+        let rows = [
+            ("nodes", Some(search.nodes)),
+            ("maps", Some(search.maps_made)),
+            ("refuted", Some(search.refuted)),
+            ("layouts solved", (search.objective == Objective::Posterior).then_some(search.layouts)),
+            ("final maps", Some(found.maps)),
+            ("nearly closed", found.nearly_closed),
+            ("closed", Some(found.closed)),
+            ("closed, perpendicular", found.perpendicular),
+            (tied, Some(found.tied)),
+        ];
+        for (name, count) in rows {
+            if let Some(count) = count {
+                let _ = writeln!(text, "  {name:<32}{count:>14}");
+            }
+        }
+        if let Some(removals) = &search.removals {
+            for axiom in Axiom::ALL {
+                let removed = removals.by(axiom);
+                if removed > 0 {
+                    let _ = writeln!(text, "  removed: {:<23}{removed:>14}", axiom.to_string());
+                }
+            }
+        }
+        text + &self.proof()
+    }
+
+    /// What is proved.
+    fn proof(&self) -> String {
+        let certificate = &self.certificate;
+        let mut text = String::new();
+        if let Some(best) = &certificate.best {
+            let _ = writeln!(text, "  best          {}", worth(best));
+        }
+        if self.search.order == SearchOrder::Proof || self.search.objective == Objective::Posterior {
+            let open = match &certificate.open {
+                Some(open) => format!("any other has at least {}", worth(open)),
+                None => "there is no other".to_owned(),
+            };
+            let verdict = if certificate.proved { "proved" } else { "not proved" };
+            let _ = writeln!(text, "  certificate   {verdict}: {open}");
+        }
+        for trusted in &certificate.trusted {
+            if let (Assumption::LinearEstimates, Some(least)) = (trusted.assumption, trusted.least) {
+                let _ = writeln!(text, "  χ² rose by at least {least:.2} of the linear estimate");
+            }
+        }
+        if let Some(rest) = certificate.rest_probability {
+            let _ = writeln!(text, "  all other maps together have a probability of at most {rest:.2e}");
+        }
+        text
+    }
+
+    fn levels(&self) -> String {
+        let search = &self.search;
+        let mut text = format!("  {:>7}{:>14}{:>14}{:>14}\n", "travels", "nodes", "maps", "refuted");
+        for level in &search.levels {
+            let _ = writeln!(
+                text,
+                "  {:>7}{:>14}{:>14}{:>14}",
+                level.travels, level.nodes, level.maps, level.refuted
+            );
+        }
+        let per_node = search.bytes as f64 / search.nodes.max(1) as f64;
+        let _ = writeln!(text, "  {} nodes expanded in {:.3} s", search.expanded, search.seconds);
+        let _ = writeln!(text, "  the search took {} bytes, {per_node:.1} a node", search.bytes);
+        text
+    }
+
+    /// The verdict, how probable the first map is, and what to do if there is none.
+    fn conclusion(&self) -> String {
+        let mut text = format!("{}\n", self.verdict.sentence);
+        if let Some([least, most]) = self.maps.first().and_then(|map| map.probability) {
+            let _ =
+                writeln!(text, "The first one's probability is at least {least:.4} and at most {most:.4}.");
+        }
+        if let (VerdictKind::NoMap, Some(travel)) = (self.verdict.kind, self.verdict.lost_at_travel) {
+            let _ = writeln!(text, "--travels {travel} maps what was before.");
+        }
+        text
+    }
+
+    fn ranking(&self) -> String {
+        if self.maps.is_empty() {
+            return String::new();
+        }
+        let is_posterior = self.search.objective == Objective::Posterior;
+        let mut text = "\n  rank".to_owned();
+        if is_posterior {
+            text += "   probability       cost     χ²/2";
+        }
+        text += "  undetermined  paths  places  genus  closed\n";
+        for map in &self.maps {
+            let _ = writeln!(text, "{}", row(map));
+        }
+        let unlisted = self.search.found.maps.saturating_sub(self.maps.len() as u64);
+        if unlisted > 0 {
+            let _ = writeln!(text, "  … and {unlisted} more (--all lists them)");
+        }
+        let ties = self.maps.iter().skip(1).filter(|map| map.tied && is_posterior);
+        for (rank, difference) in ties.filter_map(|map| Some((map.rank, map.difference.as_ref()?))) {
+            let _ = writeln!(text, "Map {rank} differs from map 1: {}", difference.sentence);
+        }
+        text
+    }
+}
+
+/// A map of the ranking in a line.
+fn row(map: &AnsweredMap) -> String {
+    let mark = if map.optimal { '*' } else { ' ' };
+    let mut text = format!("{:>6} {mark}", map.rank);
+    if let (Some([_, most]), Some(costs)) = (map.probability, &map.costs) {
+        let _ = write!(text, "{most:>13.3e}{:>11.3}{:>9.2}", costs.total, costs.of("bend"));
+    }
+    let measure = map.measure;
+    let _ = write!(
+        text,
+        "{:>12}{:>7}{:>8}{:>7}  {}",
+        measure.undetermined_boundaries,
+        measure.paths,
+        measure.places,
+        measure.genus,
+        if map.closed { "yes" } else { "no" }
+    );
+    text
+}
+
+fn worth(worth: &Worth) -> String {
+    match worth {
+        Worth::Nats(nats) => format!("{nats:.3} nats"),
+        Worth::Measure(measure) => measure.to_string(),
+    }
+}

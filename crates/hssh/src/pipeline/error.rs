@@ -1,0 +1,46 @@
+//! Why there is no answer, or something of it cannot be had.
+
+use hssh_local::{LatticeError, LogError, SurveyError};
+use hssh_metrics::PriorError;
+
+use super::engine::SearchFailure;
+use crate::answer::DisagreementError;
+
+/// Why there is no answer.
+#[derive(Debug, thiserror::Error)]
+pub enum PipelineError {
+    /// Options that contradict one another, with what to do instead.
+    #[error("{0}")]
+    Options(String),
+    /// The area of the prior.
+    #[error(transparent)]
+    Area(#[from] PriorError),
+    /// The log cannot be read.
+    #[error(transparent)]
+    Log(Box<LogError>),
+    /// No places along the log.
+    #[error(transparent)]
+    Survey(Box<SurveyError>),
+    /// The search.
+    #[error(transparent)]
+    Search(#[from] SearchFailure),
+    /// There is no map of that rank among those listed.
+    #[error("there is no map number {asked}: only {found} {explain} the exploration", explain = if *found == 1 { "map explains" } else { "maps explain" })]
+    NoSuchRank {
+        /// The rank asked for, the best being 1.
+        asked: usize,
+        /// How many maps there are.
+        found: usize,
+    },
+    /// No scans to draw a grid of, or no odometry to place them by.
+    #[error("there are no scans to draw the building of: only a laser log has them")]
+    NoScans,
+    /// Scans so far apart that the grid would be too large.
+    #[error("the map of the building is too large for a grid: {0}")]
+    Grid(#[from] LatticeError),
+    /// The map does not explain the exploration.
+    #[error(
+        "the replay disagrees with the search: {0}\nhelp: this is a bug in hssh; please report it with the exploration"
+    )]
+    Disagreement(#[from] DisagreementError),
+}

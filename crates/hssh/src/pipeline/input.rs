@@ -1,0 +1,184 @@
+//! What maps are to explain: an exploration, or a laser log and what was found in it.
+
+use std::io::Read;
+
+use hssh_causal::{Exploration, ParseError};
+use hssh_local::{LaserLog, LogError, LogWarning, Survey, SurveyError, SurveyStage, SurveyWarning, survey};
+
+use super::error::PipelineError;
+use super::options::MappingOptions;
+use crate::answer::{AnswerWarning, AnsweredInput, InputKind, Spot, WarningKind};
+
+/// What maps are to explain.
+#[derive(Clone, Debug)]
+pub struct Input {
+    pub(crate) name: String,
+    pub(crate) exploration: Exploration,
+    pub(crate) surveyed: Option<SurveyedLog>,
+}
+
+/// A log with what was found in it.
+#[derive(Clone, Debug)]
+pub struct SurveyedLog {
+    /// The log.
+    pub log: LaserLog,
+    /// The places that the robot visited.
+    pub survey: Survey,
+}
+
+impl Input {
+    /// An exploration, and what to call it.
+    #[must_use]
+    pub fn exploration(name: impl Into<String>, exploration: Exploration) -> Self {
+        Input { name: name.into(), exploration, surveyed: None }
+    }
+
+    /// An exploration as a text (`docs/exploration-format.md`).
+    ///
+    /// # Errors
+    /// If it is none, with line and column.
+    pub fn from_ron(name: impl Into<String>, text: &str) -> Result<Self, ParseError> {
+        Ok(Input::exploration(name, Exploration::from_ron(text)?))
+    }
+
+    /// A laser log, of which the places are found that the robot visited.
+    ///
+    /// # Errors
+    /// If options make no sense, if the log cannot be read or has no scans, if no place is found, or if it is not known how the robot went from one to the
+    /// next.
+    pub fn from_log(
+        name: impl Into<String>,
+        log: impl Read,
+        options: &MappingOptions,
+    ) -> Result<Self, PipelineError> {
+        options.check()?;
+        let surveyed = SurveyedLog::new(LaserLog::read(log)?, options, |_, _| {})?;
+        Ok(Input::surveyed(name, surveyed)?)
+    }
+
+    /// A log that was surveyed already.
+    ///
+    /// # Errors
+    /// If it is not known how the robot went from one visit to the next.
+    pub fn surveyed(name: impl Into<String>, surveyed: SurveyedLog) -> Result<Self, SurveyError> {
+        let exploration = surveyed.survey.exploration()?;
+        Ok(Input { name: name.into(), exploration, surveyed: Some(surveyed) })
+    }
+
+    /// What the robot saw and did.
+    #[must_use]
+    pub fn as_exploration(&self) -> &Exploration {
+        &self.exploration
+    }
+
+    /// The log, if it is one.
+    #[must_use]
+    pub fn as_surveyed(&self) -> Option<&SurveyedLog> {
+        self.surveyed.as_ref()
+    }
+
+    /// The account of it, with so many travels to be explained, of which so many are.
+    pub(super) fn account(&self, considered: usize, explained: u64) -> AnsweredInput {
+        let surveyed = self.surveyed.as_ref();
+        AnsweredInput {
+            name: self.name.clone(),
+            kind: if surveyed.is_some() { InputKind::LaserLog } else { InputKind::Exploration },
+            travels: self.exploration.travels().len() as u64,
+            considered: considered as u64,
+            explained,
+            scans: surveyed.map(SurveyedLog::scans),
+            scans_used: surveyed.map(|surveyed| surveyed.log.scans.len() as u64),
+        }
+    }
+}
+
+impl SurveyedLog {
+    /// Finds the places along a log; `progress` is told how many scans each stage has done.
+    ///
+    /// # Errors
+    /// If the options describe no local map, there is no place, or a way cannot be measured.
+    pub fn new(
+        log: LaserLog,
+        options: &MappingOptions,
+        progress: impl FnMut(SurveyStage, usize),
+    ) -> Result<Self, SurveyError> {
+        let survey = survey(&log, &options.places.along_logs(), progress)?;
+        Ok(SurveyedLog { log, survey })
+    }
+
+    /// How many laser scans the log has, those that cannot be used among them.
+    #[must_use]
+    pub fn scans(&self) -> u64 {
+        self.log.scans.len() as u64 + self.unusable().count() as u64
+    }
+
+    /// The number of a scan among all laser scans of the log.
+    #[must_use]
+    pub fn scan_number(&self, used: usize) -> u64 {
+        let line = self.log.scans[used].line;
+        used as u64 + self.unusable().filter(|&unusable| unusable < line).count() as u64
+    }
+
+    /// The lines with scans that cannot be used.
+    fn unusable(&self) -> impl Iterator<Item = u64> + '_ {
+        self.log.warnings.iter().filter_map(|warning| match warning {
+            LogWarning::Message { line, kind, .. } if kind == "FLASER" => Some(*line),
+            _ => None,
+        })
+    }
+
+    /// What was left out of the log, or decided with little reason.
+    #[must_use]
+    pub fn warnings(&self) -> Vec<AnswerWarning> {
+        let mut warnings = Vec::new();
+        for warning in &self.log.warnings {
+            let (kind, line) = match warning {
+                LogWarning::Message { line, .. } => (WarningKind::MessageLeftOut, *line),
+                LogWarning::BreaksOff { line, .. } => (WarningKind::BreaksOff, *line),
+            };
+            AnswerWarning::record(&mut warnings, kind, Spot::Line(line), || warning.to_string());
+        }
+        for warning in &self.survey.warnings {
+            let (kind, spot) = match *warning {
+                SurveyWarning::OffGateways { visit, .. } => {
+                    (WarningKind::OffGateways, Spot::Visit(visit as u64 - 1))
+                }
+                SurveyWarning::Fleeting { scan, .. } => {
+                    (WarningKind::Fleeting, Spot::Scan(self.scan_number(scan - 1)))
+                }
+            };
+            AnswerWarning::record(&mut warnings, kind, spot, || warning.to_string());
+        }
+        warnings
+    }
+}
+
+/// Whether the beginning of a file is that of a laser log: it is compressed, or its first record is a CARMEN message. An
+/// exploration begins with a parenthesis or a comment of its own kind.
+#[must_use]
+pub fn is_log(beginning: &[u8]) -> bool {
+    let text = String::from_utf8_lossy(beginning);
+    let mut records = text.lines().map(str::trim).filter(|line| !line.is_empty() && !line.starts_with('#'));
+    let is_message = |line: &str| {
+        let name = line.split_whitespace().next().unwrap_or_default();
+        let is_of_names =
+            |letter: char| letter.is_ascii_uppercase() || letter.is_ascii_digit() || letter == '_';
+        name.len() > 2 && name.chars().all(is_of_names)
+    };
+    beginning.starts_with(&GZIP) || records.next().is_some_and(is_message)
+}
+
+/// What a file compressed by gzip begins with.
+const GZIP: [u8; 2] = [0x1f, 0x8b];
+
+impl From<LogError> for PipelineError {
+    fn from(error: LogError) -> Self {
+        PipelineError::Log(Box::new(error))
+    }
+}
+
+impl From<SurveyError> for PipelineError {
+    fn from(error: SurveyError) -> Self {
+        PipelineError::Survey(Box::new(error))
+    }
+}

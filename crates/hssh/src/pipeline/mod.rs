@@ -1,0 +1,216 @@
+//! From an exploration or a robot's log to an answer, step by step: survey, likeness, search, maps, grid.
+
+mod assemble;
+mod engine;
+mod error;
+mod input;
+mod options;
+mod places;
+
+pub use engine::{Monitor, SearchFailure};
+pub use error::PipelineError;
+pub use input::{Input, SurveyedLog, is_log};
+pub use options::{
+    GenusOrder, MappingOptions, OptionsError, PosteriorChoice, PriorKind, Score, SearchChoice, SearchLimits,
+    SearchMethod,
+};
+pub use places::PlaceChoice;
+
+use std::sync::Arc;
+use std::thread::available_parallelism;
+
+use hssh_causal::Exploration;
+use hssh_draw::SearchTree;
+use hssh_local::{LocalMapOptions, OccupancyGrid, global_map, global_poses, resemblance, visit_frames};
+use hssh_metrics::{Pose, PoseGraph};
+use hssh_topology::{Isomorphism, Position};
+
+use crate::answer::{Answer, AnswerWarning, AnsweredMap, Spot, Verdict, WarningKind};
+use assemble::{Assembly, records};
+use engine::{Likeness, Searched, Task, Telling};
+
+/// More threads than that for each core are of no use.
+const THREADS_PER_CORE: usize = 4;
+
+/// An answer, with what is too large to be part of it.
+pub struct Mapped {
+    /// The answer.
+    pub answer: Answer,
+    searched: Searched,
+    /// By rank.
+    placed: Vec<PlacedMap>,
+}
+
+/// Where a map has the robot on each visit, and its pose graph if travels were measured.
+struct PlacedMap {
+    positions: Vec<Position>,
+    graph: Option<PoseGraph>,
+}
+
+/// Finds the maps that explain an input. `monitor` shows other threads how far the search is, and lets them stop it.
+///
+/// # Errors
+/// If options make no sense or contradict one another, measurements that the search needs are missing or useless, or the operating system
+/// gives no threads.
+pub fn map(input: &Input, options: &MappingOptions, monitor: &Arc<Monitor>) -> Result<Mapped, PipelineError> {
+    options.check()?;
+    let mut options = *options;
+    let considered = options.limits.travels.unwrap_or(usize::MAX).min(input.exploration.travels().len());
+    let exploration = input.exploration.prefix(considered);
+    let mut warnings = input.surveyed.as_ref().map(SurveyedLog::warnings).unwrap_or_default();
+    options.search.threads = useful_threads(options.search.threads, &mut warnings);
+    let method = options.method_for(&exploration)?;
+    let likeness = input.surveyed.as_ref().filter(|_| options.posterior.likeness != 0.0);
+    let likeness = likeness.map(|surveyed| surveyed.likeness(options.posterior.likeness));
+    let task = Task { exploration: &exploration, options: &options, method, likeness, monitor };
+    let searched = task.search()?;
+
+    let (maps, placed) = told(input, &searched, &exploration, &mut warnings);
+    let account = input.account(considered, searched.explained as u64);
+    let answer = Answer {
+        format: Answer::FORMAT.to_owned(),
+        version: Answer::VERSION,
+        verdict: Verdict::of(&account, &searched.summary, &searched.certificate),
+        input: account,
+        search: searched.summary.clone(),
+        certificate: searched.certificate.clone(),
+        visits: records(input, considered, maps.first()),
+        maps,
+        warnings,
+    };
+    Ok(Mapped { answer, searched, placed })
+}
+
+/// The maps of the ranking, placed where measured travels allow it.
+fn told(
+    input: &Input,
+    searched: &Searched,
+    exploration: &Exploration,
+    warnings: &mut Vec<AnswerWarning>,
+) -> (Vec<AnsweredMap>, Vec<PlacedMap>) {
+    let (mut maps, mut placed) = (Vec::new(), Vec::new());
+    let mut first: Option<Telling> = None;
+    for (index, found) in searched.ranking().iter().enumerate() {
+        let rank = index + 1;
+        let Some(telling) = searched.telling(found) else { break };
+        let graph = searched.pose_graph(rank, &telling.positions, exploration).unwrap_or_else(|problem| {
+            let spot = Spot::Map(rank as u64);
+            AnswerWarning::record(warnings, WarningKind::NoPoses, spot, || problem.to_string());
+            None
+        });
+        let mut map = Assembly { input, found, telling: &telling, graph: graph.as_ref() }.map(rank);
+        map.difference = first.as_ref().and_then(|first| searched.difference(first, &telling));
+        maps.push(map);
+        placed.push(PlacedMap { positions: telling.positions.clone(), graph });
+        first.get_or_insert(telling);
+    }
+    (maps, placed)
+}
+
+/// As many threads as are of use.
+fn useful_threads(asked: usize, warnings: &mut Vec<AnswerWarning>) -> usize {
+    let most = THREADS_PER_CORE * available_parallelism().map_or(1, usize::from);
+    if asked > most {
+        let sentence =
+            format!("{asked} threads are more than are of use on this machine: {most} are started");
+        warnings.push(AnswerWarning::once(WarningKind::FewerThreads, sentence));
+    }
+    asked.min(most)
+}
+
+impl MappingOptions {
+    /// The method for an exploration: what was chosen, or what its measurements allow.
+    fn method_for(&self, exploration: &Exploration) -> Result<SearchMethod, PipelineError> {
+        let refused = |why: &str| Err(PipelineError::Options(why.to_owned()));
+        let is_measured = || exploration.travels().iter().all(|travel| travel.odometry.is_some());
+        let usual = if exploration.travels().is_empty() || self.search.genus.is_some() || !is_measured() {
+            SearchMethod::BreadthFirst
+        } else {
+            SearchMethod::Posterior
+        };
+        match self.search.method.unwrap_or(usual) {
+            SearchMethod::BreadthFirst | SearchMethod::Count | SearchMethod::PosteriorBreadthFirst
+                if self.search.closed => refused(
+                "--closed goes with --search posterior, best-first and proof: the others find all maps, closed or not",
+            ),
+            SearchMethod::Posterior
+            | SearchMethod::PosteriorBestFirst
+            | SearchMethod::PosteriorBreadthFirst
+            | SearchMethod::PosteriorProof
+                if self.search.genus.is_some() =>
+            {
+                refused(
+                    "--genus belongs to the order of preference, which the posterior does not ask: use --planar or --max-genus",
+                )
+            }
+            method => Ok(method),
+        }
+    }
+}
+
+impl SurveyedLog {
+    /// How much alike the local maps of all pairs of visits are, times a weight (section 2.4).
+    fn likeness(&self, weight: f64) -> Likeness {
+        let visits = &self.survey.visits;
+        let degrees: Vec<u32> = visits.iter().map(|visit| visit.star.star.degree()).collect();
+        Likeness::new(&degrees, |later, earlier, rotation| {
+            let (first, second) = (&visits[earlier], &visits[later]);
+            let mut isomorphisms = Isomorphism::all(&second.star.star, &first.star.star);
+            let phi = isomorphisms.find(|phi| phi.rotation() == rotation);
+            let found = phi.and_then(|phi| resemblance(first, second, phi));
+            found.map_or(0.0, |found| weight * found.log_likelihood_ratio)
+        })
+    }
+}
+
+impl Mapped {
+    /// The pose graph of a map of the ranking, the best being 1: a pose for each place, in the frame of the first, and an
+    /// edge for each measured travel. `None` if travels were not measured.
+    #[must_use]
+    pub fn pose_graph(&self, rank: usize) -> Option<&PoseGraph> {
+        self.placed(rank)?.graph.as_ref()
+    }
+
+    /// What the proof rests on, as text that another program can check: docs/certificate.md. `None` if nothing is
+    /// proved.
+    #[must_use]
+    pub fn certificate(&self, input: &Input) -> Option<String> {
+        let travels = self.answer.input.explained as usize;
+        self.searched.certificate_text(&input.exploration.prefix(travels))
+    }
+
+    /// The tree that was searched, with the best maps framed; maps are taken along up to `most_maps` nodes. `None` if it was
+    /// only counted.
+    #[must_use]
+    pub fn tree(&self, most_maps: usize) -> Option<SearchTree> {
+        self.searched.tree(most_maps)
+    }
+
+    /// Where every scan of the log was taken, in the frame of the first place of a map. `None` without a log, without
+    /// such a map, or if the map's places are not placed.
+    #[must_use]
+    pub fn scan_poses(&self, input: &Input, rank: usize) -> Option<Vec<Pose>> {
+        let SurveyedLog { survey, .. } = input.surveyed.as_ref()?;
+        let PlacedMap { positions, graph } = self.placed(rank)?;
+        let mut frames = visit_frames(&survey.visits, positions, graph.as_ref()?.poses());
+        // Beyond the travels explained, the track goes on.
+        for travel in &survey.travels[frames.len() - 1..] {
+            frames.push(frames[frames.len() - 1].compose(travel.mean));
+        }
+        Some(global_poses(survey, &frames))
+    }
+
+    /// The grid map of the whole building, all scans in the frame of the first place of a map.
+    ///
+    /// # Errors
+    /// If there are no scans, no such map, or the grid would be too large.
+    pub fn building(&self, input: &Input, rank: usize) -> Result<OccupancyGrid, PipelineError> {
+        let poses = self.scan_poses(input, rank);
+        let (surveyed, poses) = input.surveyed.as_ref().zip(poses).ok_or(PipelineError::NoScans)?;
+        Ok(global_map(&surveyed.log, &poses, &LocalMapOptions::default())?)
+    }
+
+    fn placed(&self, rank: usize) -> Option<&PlacedMap> {
+        self.placed.get(rank.checked_sub(1)?)
+    }
+}

@@ -1,0 +1,312 @@
+//! Every number and switch on the way from input to answer, by level, each with its default beside it.
+
+use clap::ValueEnum;
+use hssh_topology::{Axioms, Simplicity};
+use ron::error::SpannedError;
+use ron::extensions::Extensions;
+use serde::{Deserialize, Serialize};
+
+use super::error::PipelineError;
+use super::places::PlaceChoice;
+
+/// How to come to an answer. Read from a RON file, whatever it leaves out has its default, and what it should not say is
+/// refused with line and column:
+///
+/// ```
+/// use hssh::pipeline::MappingOptions;
+///
+/// let options = MappingOptions::from_ron("(axioms: (max_genus: 0), limits: (seconds: 60))")?;
+/// assert_eq!(options.axioms.max_genus, Some(0));
+///
+/// let error = MappingOptions::from_ron("(\n  axioms: (planar: true),\n)").unwrap_err();
+/// assert_eq!((error.line(), error.column()), (2, 18));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Clone, Copy, PartialEq, Debug, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct MappingOptions {
+    /// What counts as a place, along logs.
+    pub places: PlaceChoice,
+    /// How the tree of hypotheses is searched.
+    pub search: SearchChoice,
+    /// What makes a map possible.
+    pub axioms: Axioms,
+    /// What makes a map probable.
+    pub posterior: PosteriorChoice,
+    /// When to stop.
+    pub limits: SearchLimits,
+    /// How many maps the answer lists; all if none is said.
+    pub listed: Option<usize>,
+}
+
+impl Default for MappingOptions {
+    fn default() -> Self {
+        MappingOptions {
+            places: PlaceChoice::default(),
+            search: SearchChoice::default(),
+            axioms: Axioms::default(),
+            posterior: PosteriorChoice::default(),
+            limits: SearchLimits::default(),
+            listed: Some(10),
+        }
+    }
+}
+
+/// How the tree of hypotheses is searched.
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Serialize, Deserialize, ValueEnum)]
+#[serde(rename_all = "snake_case")]
+pub enum SearchMethod {
+    /// All hypotheses, level by level.
+    BreadthFirst,
+    /// The best hypothesis by preference first: fast, may miss the optimum.
+    BestFirst,
+    /// The best hypothesis by preference of each number of travels explained in turn, until the best maps are proved.
+    Cyclic,
+    /// By a bound that proves the best maps, all of them.
+    Proof,
+    /// Count all hypotheses in constant memory; lists no maps.
+    Count,
+    /// The most probable maps given the measured travels, with a proof.
+    Posterior,
+    /// The most probable hypothesis first, as in the thesis: may miss the optimum.
+    PosteriorBestFirst,
+    /// All maps with their probabilities, level by level.
+    PosteriorBreadthFirst,
+    /// The most probable maps, by the least bound first, with a proof.
+    PosteriorProof,
+}
+
+/// Where the genus stands in the order of preference.
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Serialize, Deserialize, ValueEnum)]
+#[serde(rename_all = "snake_case")]
+pub enum GenusOrder {
+    /// Before everything else.
+    First,
+    /// After everything else.
+    Last,
+}
+
+/// How to search.
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Default, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct SearchChoice {
+    /// The method; if none is said, posterior if every travel has odometry and `genus` is not set, else breadth-first.
+    pub method: Option<SearchMethod>,
+    /// Accept closed maps only, and go back until there is one. Not with breadth-first and count.
+    pub closed: bool,
+    /// Where the genus stands in the order of preference, if it counts.
+    pub genus: Option<GenusOrder>,
+    /// Threads, 0 for one per core; the result does not depend on them.
+    pub threads: usize,
+}
+
+/// How well a map fits the measured travels.
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Default, Serialize, Deserialize, ValueEnum)]
+#[serde(rename_all = "snake_case")]
+pub enum Score {
+    /// The density of the measurements whatever the layout, with a price for every new place.
+    #[default]
+    Evidence,
+    /// Their density at the most likely layout, as in the thesis.
+    Likelihood,
+    /// They do not count.
+    Ignored,
+}
+
+/// How probable a map is before anything is measured.
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Serialize, Deserialize, ValueEnum)]
+#[serde(rename_all = "snake_case")]
+pub enum PriorKind {
+    /// All maps alike.
+    Flat,
+    /// In inverse proportion to F = c1·f1 + c2·f2' + c3·f3, as in the thesis.
+    Simplicity,
+    /// All extensions of a map alike, wherever there is a choice.
+    Choices,
+}
+
+/// What makes a map probable.
+#[derive(Clone, Copy, PartialEq, Debug, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct PosteriorChoice {
+    /// How measurements count.
+    pub score: Score,
+    /// What counts besides; if nothing is said, flat with evidence, else simplicity.
+    pub prior: Option<PriorKind>,
+    /// The weights of F.
+    pub weights: Simplicity,
+    /// New places may be anywhere in that many square metres; without it, where corridors as long as those travelled
+    /// lead.
+    pub area: Option<f64>,
+    /// How many of the best maps to prove.
+    pub best: usize,
+    /// Go on until all maps not found have at most that probability together; 1 to stop at the proof.
+    pub rest: f64,
+    /// Along logs: the weight of how alike local maps look. Neighboring cells are not independent, so that 1 is too much.
+    pub likeness: f64,
+}
+
+impl Default for PosteriorChoice {
+    fn default() -> Self {
+        PosteriorChoice {
+            score: Score::Evidence,
+            prior: None,
+            weights: Simplicity::default(),
+            area: None,
+            best: 1,
+            rest: 0.01,
+            likeness: 0.0,
+        }
+    }
+}
+
+/// When to stop before the end.
+#[derive(Clone, Copy, PartialEq, Debug, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct SearchLimits {
+    /// Explain only the first travels.
+    pub travels: Option<usize>,
+    /// Hypotheses.
+    pub nodes: Option<u64>,
+    /// Seconds of searching.
+    pub seconds: Option<f64>,
+    /// MiB of the tree and of what waits to be searched; the program takes somewhat more.
+    pub mebibytes: u64,
+}
+
+impl Default for SearchLimits {
+    fn default() -> Self {
+        SearchLimits { travels: None, nodes: None, seconds: None, mebibytes: 4096 }
+    }
+}
+
+/// Why a text is no options.
+#[derive(Clone, PartialEq, Eq, Debug, thiserror::Error)]
+#[error("line {line}, column {column}: {problem}")]
+pub struct OptionsError {
+    line: usize,
+    column: usize,
+    problem: String,
+}
+
+impl OptionsError {
+    /// Where it is wrong, the first line being 1.
+    #[must_use]
+    pub fn line(&self) -> usize {
+        self.line
+    }
+
+    /// Where in the line, the first letter being 1.
+    #[must_use]
+    pub fn column(&self) -> usize {
+        self.column
+    }
+
+    /// What is wrong.
+    #[must_use]
+    pub fn problem(&self) -> &str {
+        &self.problem
+    }
+}
+
+impl From<SpannedError> for OptionsError {
+    fn from(error: SpannedError) -> Self {
+        let start = error.span.start;
+        OptionsError { line: start.line, column: start.col, problem: error.code.to_string() }
+    }
+}
+
+impl MappingOptions {
+    /// The defaults as a file, with what each means.
+    pub const DEFAULTS: &str = include_str!("defaults.ron");
+
+    /// Reads options.
+    ///
+    /// # Errors
+    /// If the text is no RON, says something unknown, or says it wrongly.
+    pub fn from_ron(text: &str) -> Result<Self, OptionsError> {
+        let reader = ron::Options::default().with_default_extension(Extensions::IMPLICIT_SOME);
+        Ok(reader.from_str(text)?)
+    }
+
+    /// Refuses numbers that make no sense. Whatever is made with options checks them.
+    ///
+    /// # Errors
+    /// With the first such number.
+    pub fn check(&self) -> Result<(), PipelineError> {
+        let MappingOptions { places, posterior, limits, .. } = self;
+        let least_zero = [
+            ("places.narrowest", places.narrowest),
+            ("places.shallowest", places.shallowest),
+            ("places.clutter", places.clutter),
+            ("posterior.likeness", Some(posterior.likeness)),
+            ("limits.seconds", limits.seconds),
+        ];
+        let more_than_zero = [("posterior.area", posterior.area), ("posterior.rest", Some(posterior.rest))];
+        let refused = |name: &str, number: f64, what: &str| {
+            Err(PipelineError::Options(format!("the option {name} is {number}: write a {what} number")))
+        };
+        for (name, number) in least_zero.into_iter().filter_map(|(name, number)| Some((name, number?))) {
+            if !(number.is_finite() && number >= 0.0) {
+                return refused(name, number, "finite and not negative");
+            }
+        }
+        for (name, number) in more_than_zero.into_iter().filter_map(|(name, number)| Some((name, number?))) {
+            if !(number.is_finite() && number > 0.0) {
+                return refused(name, number, "positive and finite");
+            }
+        }
+        Ok(())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// What is printed is what holds, and nothing is left out.
+    #[test]
+    fn the_file_of_defaults_says_every_default() {
+        let reader = ron::Options::default().with_default_extension(Extensions::IMPLICIT_SOME);
+        let written: MappingOptions = reader.from_str(MappingOptions::DEFAULTS).unwrap();
+        assert_eq!(written, MappingOptions::default());
+        let all = serde_json::to_value(MappingOptions::default()).unwrap();
+        for name in names(&all) {
+            assert!(MappingOptions::DEFAULTS.contains(&format!("{name}: ")), "{name}");
+        }
+    }
+
+    #[test]
+    fn numbers_that_make_no_sense_are_refused() {
+        for (text, name) in [
+            ("(places: (clutter: -1))", "places.clutter"),
+            ("(limits: (seconds: NaN))", "limits.seconds"),
+            ("(posterior: (rest: 0))", "posterior.rest"),
+            ("(posterior: (area: inf))", "posterior.area"),
+        ] {
+            let error = MappingOptions::from_ron(text).unwrap().check().unwrap_err().to_string();
+            assert!(error.starts_with(&format!("the option {name} is ")), "{error}");
+        }
+    }
+
+    fn names(value: &serde_json::Value) -> Vec<String> {
+        let serde_json::Value::Object(fields) = value else { return Vec::new() };
+        fields.iter().flat_map(|(name, value)| std::iter::once(name.clone()).chain(names(value))).collect()
+    }
+
+    #[test]
+    fn what_is_wrong_is_said_with_its_place() {
+        let cases = [
+            ("(search: (method: depth_first))", (1, 19), "depth_first"),
+            ("(\n    limits: (\n        seconds: \"soon\",\n    ),\n)", (3, 18), "expected f64"),
+            ("(axioms: (planar: true))", (1, 11), "planar"),
+            ("(posterior: (best: -1))", (1, 20), ""),
+            ("(axioms: ", (1, 10), ""),
+        ];
+        for (text, place, word) in cases {
+            let error = MappingOptions::from_ron(text).unwrap_err();
+            assert!(error.to_string().contains(word), "{text}: {error}");
+            assert_eq!((error.line(), error.column()), place, "{text}: {error}");
+        }
+    }
+}
