@@ -1,6 +1,6 @@
 //! Linking two pending edges: how faces split and merge (section 3.3).
 
-use super::{Counts, EmbeddedGraph, Neighbors, PendingEdge};
+use super::graph::{Counts, EmbeddedGraph, Neighbors, PendingEdge};
 use crate::ids::{Dart, FaceLabel};
 
 /// What [`EmbeddedGraph::link`] did, so that [`EmbeddedGraph::unlink`] can take it back.

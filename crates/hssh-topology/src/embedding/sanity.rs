@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use super::{EmbeddedGraph, Neighbors};
+use super::graph::{EmbeddedGraph, Neighbors};
 use crate::ids::{Dart, FaceLabel, Vertex};
 use crate::sanity::{Unsound, agrees, holds};
 
@@ -180,5 +180,48 @@ impl EmbeddedGraph {
             here = self.pred(rev);
         }
         met
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Two vertices with an edge between them, a loop that parts the pending edges of the first, and an
+    /// isolated vertex.
+    fn small_graph() -> EmbeddedGraph {
+        let links = [(0, 5), (1, 3)].map(|(a, b)| (Dart::new(a), Dart::new(b)));
+        EmbeddedGraph::from_links([5, 2, 2], links).unwrap()
+    }
+
+    /// Whatever is carried along, the check sees that it is wrong.
+    #[test]
+    fn nothing_wrong_goes_unseen() {
+        assert_eq!(small_graph().sanity_check(), Ok(()));
+        let faults: [fn(&mut EmbeddedGraph); 16] = [
+            |graph| graph.counts.edges += 1,
+            |graph| graph.counts.components += 1,
+            |graph| graph.counts.isolated += 1,
+            |graph| graph.counts.faces_and_isolated += 1,
+            |graph| graph.counts.pending -= 1,
+            |graph| graph.counts.next_face = 0,
+            |graph| graph.degree[0] -= 1,
+            |graph| graph.darts[0].rev = Dart::new(0),
+            |graph| graph.darts[6].rev = Dart::new(0),
+            |graph| graph.darts[2].source = Vertex::new(1),
+            |graph| graph.darts[2].face = graph.darts[4].face,
+            |graph| graph.darts[7].face = FaceLabel::new(100),
+            |graph| graph.darts[4].in_face.after = Dart::new(4),
+            |graph| graph.darts[7].in_face = graph.darts[8].in_face,
+            |graph| graph.pending.leave(6),
+            |graph| {
+                let _ = graph.components.unite(0, 2);
+            },
+        ];
+        for (number, fault) in faults.into_iter().enumerate() {
+            let mut graph = small_graph();
+            fault(&mut graph);
+            assert!(graph.sanity_check().is_err(), "fault {number}");
+        }
     }
 }

@@ -2,7 +2,7 @@
 
 use serde::Serialize;
 
-use super::TopologicalMap;
+use super::topological_map::TopologicalMap;
 use crate::ids::{Dart, MapOlp, PathId, PlaceId};
 
 /// A part of the environment enclosed by travels: a face of the embedded graph.

@@ -2,8 +2,8 @@
 
 use std::collections::BTreeSet;
 
-use super::path::PathState;
-use super::{Direction, TopologicalMap};
+use super::record::{Direction, PathState};
+use super::topological_map::TopologicalMap;
 use crate::ids::{MapOlp, PathId, PlaceId};
 use crate::sanity::{Unsound, agrees, holds};
 
@@ -188,6 +188,8 @@ impl TopologicalMap {
         let long: BTreeSet<PathId> = self.paths().filter(|&path| is_long(path)).collect();
         let on_long = |olp: MapOlp| long.contains(&self.path(olp));
         agrees("long paths", self.long_path_count() as usize, long.len())?;
+        let circles = long.iter().filter(|&&path| self.is_circular(path)).count();
+        agrees("long circles", self.tally.long_circles as usize, circles)?;
         let pending: Vec<MapOlp> = self.pending_gateways().map(|gateway| gateway.olp()).collect();
         let loose = pending.iter().filter(|&&olp| !on_long(olp)).count();
         agrees("loose gateways", self.tally.loose_gateways as usize, loose)?;
@@ -199,5 +201,72 @@ impl TopologicalMap {
         )?;
         let closed_on_long = closed.iter().filter(|&&olp| on_long(olp)).count();
         agrees("closed ends of long paths", self.closed_ends_of_long_paths() as usize, closed_on_long)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::catalog::StarCatalog;
+    use crate::map::boundaries::Set;
+    use crate::star::Star;
+
+    /// Two crossings on one road, a dead end, and a place that is not linked.
+    fn small_map() -> TopologicalMap {
+        let stars = ["0+ 1+ 0- 1-", "0+ 1+ 0- 1-", "0+ (0-)", "0+ 0-"];
+        let mut catalog = StarCatalog::new();
+        let mut map = TopologicalMap::new();
+        for star in stars.map(|text| text.parse::<Star>().unwrap()) {
+            map.add_place(catalog.intern(&star), &star);
+        }
+        for (a, b) in [(0, 6), (1, 8)] {
+            let pending = |olp| map.pending(MapOlp::new(olp)).unwrap();
+            map.link(pending(a), pending(b));
+        }
+        map
+    }
+
+    /// Whatever is carried along, the check sees that it is wrong.
+    #[test]
+    fn nothing_wrong_goes_unseen() {
+        assert_eq!(small_map().sanity_check(), Ok(()));
+        let faults: [fn(&mut TopologicalMap); 19] = [
+            |map| map.tally.links += 1,
+            |map| map.tally.paths -= 1,
+            |map| map.tally.closed_ends += 1,
+            |map| map.tally.loose_gateways -= 1,
+            |map| map.tally.long_paths += 1,
+            |map| map.tally.long_circles += 1,
+            |map| map.tally.incidences += 1,
+            |map| map.live_paths.leave(3),
+            |map| map.paths[0].local_paths += 1,
+            |map| map.paths[0].places += 1,
+            |map| map.paths[0].pending_ends -= 1,
+            |map| map.paths[0].state = PathState::Circular,
+            |map| map.paths[0].state = PathState::Absorbed,
+            |map| map.olps[0].path = PathId::new(1),
+            |map| map.olps[2].direction = Direction::Downstream,
+            |map| map.olps[6].link = MapOlp::new(6),
+            |map| map.olps[3].opposite = MapOlp::new(3),
+            |map| map.gateways.swap(0, 1),
+            |map| {
+                map.history.pop();
+            },
+        ];
+        for (number, fault) in faults.into_iter().enumerate() {
+            let mut map = small_map();
+            fault(&mut map);
+            assert!(map.sanity_check().is_err(), "fault {number}");
+        }
+        // Each bit of each set.
+        for path in small_map().paths() {
+            for set in [Set::On, Set::Right, Set::Left] {
+                for place in small_map().places() {
+                    let mut map = small_map();
+                    map.boundaries.flip(path, set, place);
+                    assert!(map.sanity_check().is_err(), "{path:?} and {place:?}");
+                }
+            }
+        }
     }
 }

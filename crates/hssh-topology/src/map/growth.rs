@@ -1,0 +1,214 @@
+//! How a map grows by places and links, and how that is taken back (sections 2.1.3 and 2.3).
+
+use super::boundaries::Set;
+use super::record::{
+    Absorbed, Change, Direction, Joined, OlpRecord, PathRecord, PathState, PlaceRecord, Tally,
+};
+use super::topological_map::{PendingGateway, TopologicalMap};
+use crate::ids::{Dart, MapOlp, Olp, PathId, PlaceId, StarId};
+use crate::star::Star;
+
+impl TopologicalMap {
+    /// Adds a place with that star, its gateways pending, each of its local paths a path of its own.
+    pub fn add_place(&mut self, id: StarId, star: &Star) -> PlaceId {
+        let place = PlaceId::new(self.places.len() as u32);
+        let first = self.olps.len() as u32;
+        self.history.push(Change::Place { tally: self.tally });
+        self.places.push(PlaceRecord { star: id, first });
+        self.boundaries.make_room(self.places.len());
+
+        let mut dart = self.graph.dart_count();
+        self.graph.add_vertex(star.gateways().count() as u32);
+        for olp in star.olps() {
+            let here = MapOlp::new(first + olp.number());
+            let opposite = MapOlp::new(first + star.opposite(olp).number());
+            let is_new_path = here < opposite;
+            let (path, direction) = if is_new_path {
+                let ends = [olp, star.opposite(olp)];
+                let pending = ends.iter().filter(|&&end| star.is_travelable(end)).count();
+                (self.add_path(place, pending as u32), Direction::Downstream)
+            } else {
+                (self.olps[opposite.index()].path, Direction::Upstream)
+            };
+            let travelable = star.is_travelable(olp).then(|| {
+                self.gateways.push(here);
+                dart += 1;
+                Dart::new(dart - 1)
+            });
+            self.tally.closed_ends += u32::from(travelable.is_none());
+            self.tally.loose_gateways += u32::from(travelable.is_some());
+            self.olps.push(OlpRecord { place, opposite, link: here, dart: travelable, path, direction });
+        }
+        place
+    }
+
+    fn add_path(&mut self, place: PlaceId, pending_ends: u32) -> PathId {
+        let path = PathId::new(self.paths.len() as u32);
+        self.paths.push(PathRecord::single(pending_ends));
+        self.live_paths.push();
+        self.boundaries.push_path(place);
+        self.tally.paths += 1;
+        self.tally.incidences += 1;
+        path
+    }
+
+    /// Links two pending gateways: they become one edge, and their two paths one path.
+    ///
+    /// The two are different and pending in this map.
+    pub fn link(&mut self, a: PendingGateway, b: PendingGateway) {
+        let (edges, a, b) = ((a.edge, b.edge), a.olp, b.olp);
+        debug_assert!(a != b, "a link has two ends");
+        debug_assert!(self.is_pending(a) && self.is_pending(b), "a stale pending gateway");
+        let tally = self.tally;
+        let boundaries = self.boundaries.mark();
+        if self.path(a) == self.path(b) {
+            self.see_path_from_itself(a);
+        } else {
+            self.see_path_beyond(a, self.path(b));
+            self.see_path_beyond(b, self.path(a));
+        }
+
+        let link = self.graph.link(edges.0, edges.1);
+        let joined = self.join_paths(a, b);
+        self.olps[a.index()].link = b;
+        self.olps[b.index()].link = a;
+        self.tally.links += 1;
+        self.history.push(Change::Link { a, b, link, tally, boundaries, joined });
+    }
+
+    /// Takes back the last [`add_place`](Self::add_place) or [`link`](Self::link). Nothing happens
+    /// to an empty map.
+    pub fn retract(&mut self) {
+        match self.history.pop() {
+            None => {}
+            Some(Change::Place { tally }) => self.remove_last_place(tally),
+            Some(Change::Link { a, b, link, tally, boundaries, joined }) => {
+                self.olps[a.index()].link = a;
+                self.olps[b.index()].link = b;
+                self.part_paths(joined);
+                self.boundaries.restore(boundaries);
+                self.graph.unlink(link);
+                self.tally = tally;
+            }
+        }
+    }
+
+    fn remove_last_place(&mut self, tally: Tally) {
+        let Some(PlaceRecord { first, .. }) = self.places.pop() else { return };
+        self.graph.remove_last_vertex();
+        self.gateways.truncate(self.graph.dart_count() as usize);
+        let paths = self.paths.len() - (self.olps.len() - first as usize) / 2;
+        self.olps.truncate(first as usize);
+        (paths..self.paths.len()).for_each(|_| self.live_paths.pop());
+        self.paths.truncate(paths);
+        self.boundaries.truncate(paths);
+        self.tally = tally;
+    }
+
+    /// The paths that cross the path ending in `end` see, beyond `end`, the places of `path`.
+    pub(super) fn see_path_beyond(&mut self, end: MapOlp, path: PathId) {
+        self.walk_inward(end, |map, toward| map.see_along(toward, path));
+    }
+
+    /// A path becomes circular: going either way from any of its places one comes by all of them.
+    pub(super) fn see_path_from_itself(&mut self, end: MapOlp) {
+        let path = self.path(end);
+        self.walk_inward(end, |map, toward| {
+            map.see_along(toward, path);
+            map.see_along(map.opposite(toward), path);
+        });
+    }
+
+    /// Whoever leaves the place of `exit` by `exit` now comes by the places of `reached`: they are
+    /// right or left of every other path through that place.
+    fn see_along(&mut self, exit: MapOlp, reached: PathId) {
+        let PlaceRecord { first, .. } = self.places[self.place(exit).index()];
+        let local = |olp: MapOlp| Olp::new(olp.number() - first);
+        let olps = self.olps_of(self.place(exit));
+        let degree = olps.len() as u32;
+        for downstream in olps {
+            let record = self.olps[downstream.index()];
+            let is_other_path = exit != downstream && exit != record.opposite;
+            if record.direction == Direction::Downstream && is_other_path {
+                let clockwise = |to: MapOlp| local(downstream).turn_to(local(to), degree);
+                let is_right = clockwise(exit) < clockwise(record.opposite);
+                let side = if is_right { Set::Right } else { Set::Left };
+                self.boundaries.gain(record.path, side, reached);
+            }
+        }
+    }
+
+    /// Makes the paths that end in the pending gateways `a` and `b` one path. The one with fewer
+    /// local paths becomes part of the other.
+    pub(super) fn join_paths(&mut self, a: MapOlp, b: MapOlp) -> Joined {
+        let record = |end: MapOlp| self.paths[self.path(end).index()];
+        if self.path(a) == self.path(b) {
+            let (into, before) = (self.path(a), record(a));
+            self.tally.loose_gateways -= before.loose_gateways();
+            self.tally.long_circles += u32::from(before.is_long());
+            let path = &mut self.paths[into.index()];
+            (path.state, path.pending_ends) = (PathState::Circular, 0);
+            return Joined { into, before, absorbed: None };
+        }
+        let (at, kept) = if record(a).local_paths >= record(b).local_paths { (b, a) } else { (a, b) };
+        let (into, from) = (self.path(kept), self.path(at));
+        let flipped = self.direction(kept) == self.direction(at);
+        self.rename_path(at, into, flipped);
+
+        let (before, lost) = (self.paths[into.index()], self.paths[from.index()]);
+        let places = self.boundaries.absorb(into, from, flipped);
+        let joined = PathRecord {
+            local_paths: before.local_paths + lost.local_paths,
+            places,
+            pending_ends: before.pending_ends + lost.pending_ends - 2,
+            state: PathState::Open,
+        };
+        self.paths[into.index()] = joined;
+        self.paths[from.index()].state = PathState::Absorbed;
+        self.live_paths.leave(from.number());
+        self.tally.paths -= 1;
+        self.tally.incidences -= u64::from(before.places + lost.places - places);
+        self.tally.loose_gateways -= before.loose_gateways() + lost.loose_gateways();
+        self.tally.loose_gateways += joined.loose_gateways();
+        self.tally.long_paths -= u32::from(before.is_long()) + u32::from(lost.is_long());
+        self.tally.long_paths += u32::from(joined.is_long());
+        Joined { into, before, absorbed: Some(Absorbed { at, from, flipped }) }
+    }
+
+    /// Takes back [`join_paths`](Self::join_paths); its two gateways are pending again.
+    pub(super) fn part_paths(&mut self, joined: Joined) {
+        self.paths[joined.into.index()] = joined.before;
+        if let Some(Absorbed { at, from, flipped }) = joined.absorbed {
+            self.paths[from.index()].state = PathState::Open;
+            self.live_paths.rejoin(from.number());
+            self.rename_path(at, from, flipped);
+        }
+    }
+
+    /// Gives every oriented local path of the path that ends in `end` another path and, if asked,
+    /// the other direction.
+    fn rename_path(&mut self, end: MapOlp, path: PathId, flip: bool) {
+        self.walk_inward(end, |map, toward| {
+            for olp in [toward, map.opposite(toward)] {
+                let record = &mut map.olps[olp.index()];
+                record.path = path;
+                if flip {
+                    record.direction = record.direction.reversed();
+                }
+            }
+        });
+    }
+
+    /// Calls `visit` at each place of the path that ends in `end`, from `end` inward, with the
+    /// oriented local path that points towards `end`.
+    pub(super) fn walk_inward(&mut self, end: MapOlp, mut visit: impl FnMut(&mut Self, MapOlp)) {
+        let mut toward = end;
+        loop {
+            visit(self, toward);
+            match self.linked(self.opposite(toward)) {
+                Some(next) => toward = next,
+                None => return,
+            }
+        }
+    }
+}
