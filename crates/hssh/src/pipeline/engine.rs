@@ -363,7 +363,7 @@ fn levels(counts: &[LevelCounts]) -> Vec<SearchLevel> {
 fn preference_certificate(report: &Report) -> CertificateSummary {
     let open = report.certificate.and_then(|certificate| certificate.open_bound);
     CertificateSummary {
-        proved: report.is_optimal,
+        proved: report.is_optimal || report.certificate.is_some_and(|certificate| certificate.proved),
         best: report.finals.best.map(|measure| Worth::Measure(measured(measure))),
         open: open.map(|measure| Worth::Measure(measured(measure))),
         rest_probability: None,

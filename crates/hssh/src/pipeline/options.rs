@@ -19,7 +19,7 @@ use super::places::PlaceChoice;
 /// assert_eq!(options.axioms.max_genus, Some(0));
 ///
 /// let error = MappingOptions::from_ron("(\n  axioms: (planar: true),\n)").unwrap_err();
-/// assert_eq!((error.line(), error.column()), (2, 18));
+/// assert_eq!((error.line(), error.column()), (2, 12));
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 #[derive(Clone, Copy, PartialEq, Debug, Serialize, Deserialize)]
@@ -292,9 +292,9 @@ mod tests {
     fn what_is_wrong_is_said_with_its_place() {
         let cases = [
             ("(search: (method: depth_first))", (1, 19), "depth_first"),
-            ("(\n    limits: (\n        seconds: \"soon\",\n    ),\n)", (3, 18), "expected f64"),
+            ("(\n    limits: (\n        seconds: \"soon\",\n    ),\n)", (3, 17), "float"),
             ("(axioms: (planar: true))", (1, 11), "planar"),
-            ("(posterior: (best: -1))", (1, 20), ""),
+            ("(posterior: (best: -1))", (1, 21), "bounds"),
             ("(axioms: ", (1, 10), ""),
         ];
         for (text, place, word) in cases {
