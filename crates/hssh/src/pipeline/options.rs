@@ -295,7 +295,7 @@ mod tests {
             ("(\n    limits: (\n        seconds: \"soon\",\n    ),\n)", (3, 17), "float"),
             ("(axioms: (planar: true))", (1, 11), "planar"),
             ("(posterior: (best: -1))", (1, 21), "bounds"),
-            ("(axioms: ", (1, 10), ""),
+            ("(axioms: ", (1, 9), "struct"),
         ];
         for (text, place, word) in cases {
             let error = MappingOptions::from_ron(text).unwrap_err();
