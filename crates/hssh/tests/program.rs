@@ -156,6 +156,47 @@ fn writes_pictures() {
     assert!(!folder.join("map-3.svg").exists());
 }
 
+/// Options come from a file, flags override it, and the file that is printed changes nothing.
+#[test]
+fn options_come_from_a_file() {
+    let folder = scratch("options");
+    let file = |name: &str, text: &str| {
+        std::fs::write(folder.join(name), text).unwrap();
+        folder.join(name).to_string_lossy().into_owned()
+    };
+    let answer = |arguments: &[&str]| {
+        let output = hssh(&[&["map", "fixtures/aces.ron", "--json"], arguments].concat());
+        let mut answer: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
+        answer["search"]["seconds"] = 0.into();
+        answer
+    };
+    let printed = hssh(&["options"]).stdout;
+    let usual = file("usual.ron", &String::from_utf8(printed).unwrap());
+    assert_eq!(answer(&["--options", &usual]), answer(&[]));
+    let planar = file("planar.ron", "(search: (method: breadth_first), axioms: (max_genus: 0), listed: 3)");
+    let flags = ["--search", "breadth-first", "--planar", "--top", "3"];
+    assert_eq!(answer(&["--options", &planar]), answer(&flags));
+    let overridden = answer(&["--options", &planar, "--search", "posterior", "--top", "1"]);
+    assert_eq!(overridden, answer(&["--planar", "--top", "1"]));
+
+    let wrong = file("wrong.ron", "(\n    limits: (hours: 1),\n)\n");
+    let output = hssh(&["map", "fixtures/aces.ron", "--options", &wrong]);
+    let said = String::from_utf8_lossy(&output.stderr).into_owned();
+    assert_eq!(output.status.code(), Some(2));
+    assert!(said.contains("wrong.ron:2:14: ") && said.contains("`hours`"), "{said}");
+}
+
+/// The story of a map as JSON is made of a map of the answer.
+#[test]
+fn explanations_are_of_answered_maps() {
+    let explained = hssh(&["explain", "fixtures/aces.ron", "--planar", "--rank", "2", "--json"]);
+    let explained: serde_json::Value = serde_json::from_slice(&explained.stdout).unwrap();
+    let answer = hssh(&["map", "fixtures/aces.ron", "--planar", "--json"]);
+    let answer: serde_json::Value = serde_json::from_slice(&answer.stdout).unwrap();
+    assert_eq!(explained["map"], answer["maps"][1]);
+    assert_eq!(explained["story"].as_array().map(Vec::len), Some(15));
+}
+
 #[test]
 fn reads_standard_input() {
     let text = std::fs::File::open(root().join("fixtures/aces.ron")).unwrap();
