@@ -197,6 +197,33 @@ fn explanations_are_of_answered_maps() {
     assert_eq!(explained["story"].as_array().map(Vec::len), Some(15));
 }
 
+/// Whatever a command prints as JSON, the library's types read back, and nothing is lost.
+#[test]
+fn what_is_printed_is_read_back() {
+    fn read_back<T: serde::Serialize + serde::de::DeserializeOwned>(format: &str, arguments: &[&str]) {
+        let output = hssh(&[arguments, &["--json"]].concat());
+        let text = String::from_utf8(output.stdout).unwrap();
+        let read: T = serde_json::from_str(&text).unwrap();
+        assert_eq!(serde_json::to_string_pretty(&read).unwrap() + "\n", text, "{arguments:?}");
+        assert!(text.contains(&format!("\"format\": \"{format}\"")), "{arguments:?}");
+        assert!(!text.contains("null"), "{arguments:?}");
+    }
+    read_back::<hssh::answer::Answer>("hssh-answer", &["map", "fixtures/aces.ron"]);
+    read_back::<hssh::answer::Explanation>("hssh-explanation", &["explain", "fixtures/aces.ron"]);
+    read_back::<hssh::account::ContentsAccount>(
+        "hssh-contents",
+        &["check", "fixtures/aces.ron", "--schemas"],
+    );
+    let graph = "fixtures/graphs/two-wrong-closures.g2o";
+    read_back::<hssh::account::PoseGraphAccount>("hssh-pose-graph", &["graph", graph, "--graduated"]);
+    read_back::<hssh::account::PlacesAccount>("hssh-places", &["stars", "fixtures/grids/floor.yaml"]);
+    let log = scratch("printed").join("ring.log").to_string_lossy().into_owned();
+    read_back::<hssh::account::DriveAccount>("hssh-drive", &["simulate", "--floor", "ring", "-o", &log]);
+    read_back::<hssh::account::SurveyAccount>("hssh-survey", &["explore", &log]);
+    read_back::<hssh::account::PlacesAccount>("hssh-places", &["stars", &log]);
+    read_back::<hssh::answer::Answer>("hssh-answer", &["map", &log]);
+}
+
 #[test]
 fn reads_standard_input() {
     let text = std::fs::File::open(root().join("fixtures/aces.ron")).unwrap();

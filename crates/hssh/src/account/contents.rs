@@ -12,6 +12,10 @@ use crate::answer::counted;
 /// What is in an exploration.
 #[derive(Clone, PartialEq, Debug, Serialize, Deserialize)]
 pub struct ContentsAccount {
+    /// `hssh-contents`.
+    pub format: String,
+    /// 1.
+    pub version: u32,
     /// The exploration, as it was given.
     pub name: String,
     /// How many travels there are.
@@ -87,6 +91,8 @@ impl ContentsAccount {
         };
         let travels = exploration.travels();
         ContentsAccount {
+            format: "hssh-contents".to_owned(),
+            version: 1,
             name: name.to_owned(),
             travels: travels.len() as u64,
             travels_with_odometry: travels.iter().filter(|travel| travel.odometry.is_some()).count() as u64,

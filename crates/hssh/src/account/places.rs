@@ -13,6 +13,10 @@ use crate::answer::{EndReference, counted};
 /// The places of a map or along a log; metres and radians in the frame of the map, or of the log's first scan.
 #[derive(Clone, PartialEq, Debug, Serialize, Deserialize)]
 pub struct PlacesAccount {
+    /// `hssh-places`.
+    pub format: String,
+    /// 1.
+    pub version: u32,
     /// The map or the log, as it was given.
     pub name: String,
     /// The map; absent with logs.
@@ -106,6 +110,8 @@ impl PlacesAccount {
             ConstrictionAccount { gateway: GatewayAccount::new(gateway), hidden_area, is_door }
         };
         PlacesAccount {
+            format: "hssh-places".to_owned(),
+            version: 1,
             name: name.to_owned(),
             grid: Some(GridSize {
                 width: grid.lattice().width() as u64,
@@ -123,8 +129,15 @@ impl PlacesAccount {
     /// The places along a log, visit by visit.
     #[must_use]
     pub fn along_log(name: &str, places: Vec<PlaceAccount>) -> Self {
-        let (connections, constrictions) = (Vec::new(), Vec::new());
-        PlacesAccount { name: name.to_owned(), grid: None, places, connections, constrictions }
+        PlacesAccount {
+            format: "hssh-places".to_owned(),
+            version: 1,
+            name: name.to_owned(),
+            grid: None,
+            places,
+            connections: Vec::new(),
+            constrictions: Vec::new(),
+        }
     }
 }
 

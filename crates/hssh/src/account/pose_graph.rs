@@ -12,6 +12,10 @@ const MOST_LISTED: usize = 8;
 /// A pose graph, optimized. Poses have the labels of the file; metres and radians in its frame.
 #[derive(Clone, PartialEq, Debug, Serialize, Deserialize)]
 pub struct PoseGraphAccount {
+    /// `hssh-pose-graph`.
+    pub format: String,
+    /// 1.
+    pub version: u32,
     /// The file, as it was given.
     pub name: String,
     /// How many edges there are.

@@ -15,7 +15,7 @@ use hssh_search::{
 use hssh_topology::{GenusRank, Hypothesis, MapOlp, Measure, PlaceId, Position, Preference, StarCatalog};
 
 use super::error::PipelineError;
-use super::options::{GenusOrder, MappingOptions, PriorKind, Score, SearchMethod};
+use super::options::{GenusOrder, MappingOptions, MetricalScore, PriorKind, SearchMethod};
 use crate::answer::{
     Assumption, CertificateSummary, CostItem, CostSheet, EndReference, FoundCounts, MapDifference,
     MapMeasure, Objective, PartingVisit, SearchLevel, SearchOrder, SearchSummary, StopCause, TestTravels,
@@ -157,7 +157,7 @@ impl Task<'_> {
             PosteriorOrder::BestFirst => SearchOrder::BestFirst,
             PosteriorOrder::Proof(_) => SearchOrder::Proof,
         };
-        let measured = self.options.posterior.score != Score::Ignored;
+        let measured = self.options.posterior.score != MetricalScore::Ignored;
         let listed = self.options.listed.unwrap_or(usize::MAX);
         let is_proved = posterior.report().proved;
         let ranking = posterior.maps().iter().take(listed).enumerate().map(|(index, map)| {
@@ -212,12 +212,13 @@ impl Task<'_> {
             None => Corridor::typical_of(self.exploration).map(PlacePrior::Corridor),
         };
         let metrical = match posterior.score {
-            Score::Likelihood => Metrical::Likelihood,
-            Score::Ignored => Metrical::Ignored,
+            MetricalScore::Likelihood => Metrical::Likelihood,
+            MetricalScore::Ignored => Metrical::Ignored,
             // Without any measured distance nothing is laid out, and the search will say so.
-            Score::Evidence => places.map_or(Metrical::Likelihood, Metrical::Evidence),
+            MetricalScore::Evidence => places.map_or(Metrical::Likelihood, Metrical::Evidence),
         };
-        let usual = if posterior.score == Score::Evidence { PriorKind::Flat } else { PriorKind::Simplicity };
+        let usual =
+            if posterior.score == MetricalScore::Evidence { PriorKind::Flat } else { PriorKind::Simplicity };
         let prior = match posterior.prior.unwrap_or(usual) {
             PriorKind::Flat => MapPrior::Flat,
             PriorKind::Choices => MapPrior::Choices,

@@ -97,7 +97,7 @@ pub struct SearchChoice {
 /// How well a map fits the measured travels.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Default, Serialize, Deserialize, ValueEnum)]
 #[serde(rename_all = "snake_case")]
-pub enum Score {
+pub enum MetricalScore {
     /// The density of the measurements whatever the layout, with a price for every new place.
     #[default]
     Evidence,
@@ -124,7 +124,7 @@ pub enum PriorKind {
 #[serde(deny_unknown_fields, default)]
 pub struct PosteriorChoice {
     /// How measurements count.
-    pub score: Score,
+    pub score: MetricalScore,
     /// What counts besides; if nothing is said, flat with evidence, else simplicity.
     pub prior: Option<PriorKind>,
     /// The weights of F.
@@ -143,7 +143,7 @@ pub struct PosteriorChoice {
 impl Default for PosteriorChoice {
     fn default() -> Self {
         PosteriorChoice {
-            score: Score::Evidence,
+            score: MetricalScore::Evidence,
             prior: None,
             weights: Simplicity::default(),
             area: None,

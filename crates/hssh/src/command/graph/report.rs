@@ -33,6 +33,8 @@ pub(super) fn account(
     };
     let skipped = file.skipped.iter();
     PoseGraphAccount {
+        format: "hssh-pose-graph".to_owned(),
+        version: 1,
         name,
         edges: edges.len(),
         closures: kinds.iter().filter(|&&kind| kind != EdgeKind::Odometry).count(),
