@@ -42,12 +42,31 @@ fn a_log_becomes_the_map_of_its_building() {
     let numbers = ["undetermined_boundaries", "paths", "places"].map(|number| measure[number].as_u64());
     assert_eq!(numbers, [Some(0), Some(6), Some(9)]);
     assert_eq!(best["closed"], true);
+    visits_are_of_scans(&answer);
     assert!(best["probability"][0].as_f64().unwrap() > 0.8, "{}", best["probability"]);
     assert!(std::fs::read_to_string(&svg).unwrap().contains("<svg"));
     assert_eq!(
         hssh(&["stars", a.replace("--grid", &grid.to_string_lossy()).as_str()]).status.code(),
         Some(0)
     );
+}
+
+/// What scores an answer against the corrected poses asks for: of each visit the scan nearest to the place, and the place.
+fn visits_are_of_scans(answer: &serde_json::Value) {
+    let visits = answer["visits"].as_array().unwrap();
+    assert_eq!(visits.len() as u64, answer["input"]["travels"].as_u64().unwrap() + 1);
+    let mut since = 0;
+    for (visit, told) in visits.iter().zip(answer["maps"][0]["visits"].as_array().unwrap()) {
+        let [scan, first, last] =
+            [&visit["scan"], &visit["scans"][0], &visit["scans"][1]].map(|scan| scan.as_u64().unwrap());
+        assert!(since <= first && first <= scan && scan <= last, "{visit}");
+        assert!(visit["times"][0].as_f64() <= visit["times"][1].as_f64(), "{visit}");
+        assert!(visit["place"].as_u64() < answer["maps"][0]["measure"]["places"].as_u64());
+        assert_eq!(visit["place"], told["place"]);
+        assert!(told["robot"]["x"].is_f64());
+        since = first;
+    }
+    assert!(since < answer["input"]["scans"].as_u64().unwrap());
 }
 
 #[test]

@@ -156,6 +156,74 @@ fn writes_pictures() {
     assert!(!folder.join("map-3.svg").exists());
 }
 
+/// Options come from a file, flags override it, and the file that is printed changes nothing.
+#[test]
+fn options_come_from_a_file() {
+    let folder = scratch("options");
+    let file = |name: &str, text: &str| {
+        std::fs::write(folder.join(name), text).unwrap();
+        folder.join(name).to_string_lossy().into_owned()
+    };
+    let answer = |arguments: &[&str]| {
+        let output = hssh(&[&["map", "fixtures/aces.ron", "--json"], arguments].concat());
+        let mut answer: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
+        answer["search"]["seconds"] = 0.into();
+        answer
+    };
+    let printed = hssh(&["options"]).stdout;
+    let usual = file("usual.ron", &String::from_utf8(printed).unwrap());
+    assert_eq!(answer(&["--options", &usual]), answer(&[]));
+    let planar = file("planar.ron", "(search: (method: breadth_first), axioms: (max_genus: 0), listed: 3)");
+    let flags = ["--search", "breadth-first", "--planar", "--top", "3"];
+    assert_eq!(answer(&["--options", &planar]), answer(&flags));
+    let overridden = answer(&["--options", &planar, "--search", "posterior", "--top", "1"]);
+    assert_eq!(overridden, answer(&["--planar", "--top", "1"]));
+
+    let wrong = file("wrong.ron", "(\n    limits: (hours: 1),\n)\n");
+    let output = hssh(&["map", "fixtures/aces.ron", "--options", &wrong]);
+    let said = String::from_utf8_lossy(&output.stderr).into_owned();
+    assert_eq!(output.status.code(), Some(2));
+    assert!(said.contains("wrong.ron:2:14: ") && said.contains("`hours`"), "{said}");
+}
+
+/// The story of a map as JSON is made of a map of the answer.
+#[test]
+fn explanations_are_of_answered_maps() {
+    let explained = hssh(&["explain", "fixtures/aces.ron", "--planar", "--rank", "2", "--json"]);
+    let explained: serde_json::Value = serde_json::from_slice(&explained.stdout).unwrap();
+    let answer = hssh(&["map", "fixtures/aces.ron", "--planar", "--json"]);
+    let answer: serde_json::Value = serde_json::from_slice(&answer.stdout).unwrap();
+    assert_eq!(explained["map"], answer["maps"][1]);
+    assert_eq!(explained["story"].as_array().map(Vec::len), Some(15));
+}
+
+/// Whatever a command prints as JSON, the library's types read back, and nothing is lost.
+#[test]
+fn what_is_printed_is_read_back() {
+    fn read_back<T: serde::Serialize + serde::de::DeserializeOwned>(format: &str, arguments: &[&str]) {
+        let output = hssh(&[arguments, &["--json"]].concat());
+        let text = String::from_utf8(output.stdout).unwrap();
+        let read: T = serde_json::from_str(&text).unwrap();
+        assert_eq!(serde_json::to_string_pretty(&read).unwrap() + "\n", text, "{arguments:?}");
+        assert!(text.contains(&format!("\"format\": \"{format}\"")), "{arguments:?}");
+        assert!(!text.contains("null"), "{arguments:?}");
+    }
+    read_back::<hssh::answer::Answer>("hssh-answer", &["map", "fixtures/aces.ron"]);
+    read_back::<hssh::answer::Explanation>("hssh-explanation", &["explain", "fixtures/aces.ron"]);
+    read_back::<hssh::account::ContentsAccount>(
+        "hssh-contents",
+        &["check", "fixtures/aces.ron", "--schemas"],
+    );
+    let graph = "fixtures/graphs/two-wrong-closures.g2o";
+    read_back::<hssh::account::PoseGraphAccount>("hssh-pose-graph", &["graph", graph, "--graduated"]);
+    read_back::<hssh::account::PlacesAccount>("hssh-places", &["stars", "fixtures/grids/floor.yaml"]);
+    let log = scratch("printed").join("ring.log").to_string_lossy().into_owned();
+    read_back::<hssh::account::DriveAccount>("hssh-drive", &["simulate", "--floor", "ring", "-o", &log]);
+    read_back::<hssh::account::SurveyAccount>("hssh-survey", &["explore", &log]);
+    read_back::<hssh::account::PlacesAccount>("hssh-places", &["stars", &log]);
+    read_back::<hssh::answer::Answer>("hssh-answer", &["map", &log]);
+}
+
 #[test]
 fn reads_standard_input() {
     let text = std::fs::File::open(root().join("fixtures/aces.ron")).unwrap();

@@ -19,7 +19,11 @@ fn from_a_floor_to_its_map() {
     let truth: serde_json::Value = serde_json::from_str(&truth).expect("the truth is JSON");
     assert_eq!(truth["stops"].as_array().map(Vec::len), Some(5));
     assert_eq!(truth["stops"][0]["place"], truth["stops"][4]["place"]);
-    assert!(hssh(&["explore", &log, "-o", &exploration]).status.success());
+    let explored = hssh(&["explore", &log, "-o", &exploration, "--json"]);
+    let explored: serde_json::Value = serde_json::from_slice(&explored.stdout).expect("the account is JSON");
+    assert_eq!(explored["visits"].as_array().map(Vec::len), Some(5));
+    assert_eq!(explored["travels"].as_array().map(Vec::len), Some(4));
+    assert_eq!(explored["visits"][0]["exit"].is_string(), explored["visits"][4]["entry"].is_string());
     let mapped = hssh(&["map", &exploration, "--json"]);
     let mapped: serde_json::Value = serde_json::from_slice(&mapped.stdout).expect("the report is JSON");
     let best = &mapped["maps"][0];

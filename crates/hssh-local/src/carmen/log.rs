@@ -29,6 +29,8 @@ pub struct LoggedScan {
     pub corrected: Pose,
     /// The line of the log, counted from 1.
     pub line: u64,
+    /// When it was taken, in seconds of the recording program's clock, if the log says so.
+    pub time: Option<f64>,
 }
 
 /// What a log holds for a mapper.
@@ -97,6 +99,7 @@ impl LaserLog {
             moment: self.trajectory.len(),
             corrected: laser.corrected,
             line,
+            time: laser.time,
         });
         self.trajectory.push(laser.odometry);
         Ok(())

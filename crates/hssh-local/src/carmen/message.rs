@@ -34,6 +34,8 @@ pub struct LaserMessage {
     pub corrected: Pose,
     /// The robot's raw odometry.
     pub odometry: Pose,
+    /// When it was taken, in seconds of the recording program's clock, if the message says so.
+    pub time: Option<f64>,
 }
 
 impl Message {
@@ -66,7 +68,9 @@ fn laser(words: &[&str]) -> Result<LaserMessage, MessageProblem> {
         return Err(MessageProblem::Length { found: words.len(), beams, expected: poses + 9 });
     }
     let ranges = (2..poses).map(|word| range(words, word)).collect::<Result<_, _>>()?;
-    Ok(LaserMessage { ranges, corrected: pose(words, poses)?, odometry: pose(words, poses + 3)? })
+    let (corrected, odometry) = (pose(words, poses)?, pose(words, poses + 3)?);
+    let time = number(words, poses + 6).ok();
+    Ok(LaserMessage { ranges, corrected, odometry, time })
 }
 
 fn range(words: &[&str], word: usize) -> Result<f64, MessageProblem> {

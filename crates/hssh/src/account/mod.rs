@@ -1,7 +1,16 @@
-//! What the other commands find, as plain data: surveys of logs and drives of simulated robots.
+//! What the other commands find, as plain data: contents of explorations, places of maps and logs, surveys of logs, drives
+//! of simulated robots, and optimized pose graphs.
 
+mod contents;
 mod drive;
+mod places;
+mod pose_graph;
 mod survey;
 
+pub use contents::{CausalContents, ContentsAccount, SchemaContents, StarTypeContents};
 pub use drive::{DriveAccount, DrivePlace, DriveStop};
+pub use places::{
+    ConstrictionAccount, GatewayAccount, GridSize, PlaceAccount, PlacesAccount, StarEndAccount,
+};
+pub use pose_graph::{JudgedEdge, LabeledPose, PoseGraphAccount, SkippedRecord};
 pub use survey::{SurveyAccount, SurveyedEnd, SurveyedTravel, SurveyedVisit};

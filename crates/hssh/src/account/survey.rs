@@ -43,6 +43,9 @@ pub struct SurveyedVisit {
     pub scan: u64,
     /// The first and the last scan from which the place was sighted.
     pub scans: [u64; 2],
+    /// When these two were taken, in seconds of the recording program's clock; absent if the log does not say.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub times: Option<[f64; 2]>,
     /// The place's frame, which is turned as the first scan's.
     pub frame: Pose,
     /// The star, as the thesis writes it.
@@ -95,9 +98,11 @@ impl SurveyAccount {
                 width: visit.star.gateways[olp.index()].map(|gateway| gateway.width),
             };
             let (first, last) = visit.scans;
+            let time = |scan: usize| log.scans[scan].time;
             SurveyedVisit {
                 scan: surveyed.scan_number(visit.reference),
                 scans: [first, last].map(|scan| surveyed.scan_number(scan)),
+                times: time(first).zip(time(last)).map(|(first, last)| [first, last]),
                 frame: visit.frame,
                 star: star.to_string(),
                 ends: star.olps().map(end).collect(),

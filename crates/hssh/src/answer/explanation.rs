@@ -15,6 +15,10 @@ use super::visit::{AnsweredVisit, Finding};
 /// A map with the story that it tells of an exploration.
 #[derive(Clone, PartialEq, Debug, Serialize, Deserialize)]
 pub struct Explanation {
+    /// `hssh-explanation`.
+    pub format: String,
+    /// 1.
+    pub version: u32,
     /// What is explained.
     pub input: AnsweredInput,
     /// The map.
@@ -46,6 +50,8 @@ impl Explanation {
         let mut story = vec![format!("start at place 0, a {start}.")];
         story.extend(pairs.map(|(pair, seen)| sentence(&pair[0], &pair[1], seen)));
         Ok(Explanation {
+            format: "hssh-explanation".to_owned(),
+            version: 1,
             input: answer.input.clone(),
             map: map.clone(),
             story,
@@ -106,7 +112,7 @@ fn sentence(before: &AnsweredVisit, now: &AnsweredVisit, seen: &str) -> String {
 /// The story for people to read.
 impl fmt::Display for Explanation {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Explanation { input, map, story, check } = self;
+        let Explanation { input, map, story, check, .. } = self;
         writeln!(f, "Map {} of the ranking: {}.", map.rank, map.measure)?;
         for (travel, sentence) in story.iter().enumerate() {
             match travel {

@@ -79,7 +79,7 @@ impl Answer {
         if self.search.order == SearchOrder::Proof || self.search.objective == Objective::Posterior {
             let open = match &certificate.open {
                 Some(open) => format!("any other has at least {}", worth(open)),
-                None => "there is no other".to_owned(),
+                None => "nothing is left open".to_owned(),
             };
             let verdict = if certificate.proved { "proved" } else { "not proved" };
             let _ = writeln!(text, "  certificate   {verdict}: {open}");

@@ -57,10 +57,14 @@ impl Verdict {
             1 => format!("Only the first of {} travels: ", input.travels),
             basis => format!("Only the first {basis} of {} travels: ", input.travels),
         };
-        let what = if is_partial { "them" } else { "the exploration" };
+        let what = match input.basis() {
+            _ if !is_partial => "the exploration",
+            1 => "it",
+            _ => "them",
+        };
         let body = match kind {
             VerdictKind::NoneYet => {
-                "stopped early, no map that explains everything was found yet.".to_owned()
+                format!("the search stopped before it found a map that explains {what}.")
             }
             VerdictKind::NoClosedMap => format!(
                 "no closed map explains {what}; {} left with pending gateways.",
@@ -103,6 +107,9 @@ fn found(search: &SearchSummary, certificate: &CertificateSummary, kind: Verdict
         Objective::Posterior => ("probable", "more probable"),
     };
     match (kind, order) {
+        (VerdictKind::OneBest, SearchOrder::BreadthFirst | SearchOrder::Count) if found.maps == 1 => {
+            format!("one map explains {what}; that no other does is proved.")
+        }
         (VerdictKind::OneBest, SearchOrder::BreadthFirst | SearchOrder::Count) => {
             format!("{maps} {explain} {what}; one is optimal.")
         }

@@ -18,6 +18,9 @@ pub struct VisitRecord {
     /// With a log: the first and the last scan from which the place was sighted.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub scans: Option<[u64; 2]>,
+    /// With a log that has them: when these two scans were taken, in seconds of the recording program's clock.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub times: Option<[f64; 2]>,
 }
 
 /// How a visit follows from the visits before it.

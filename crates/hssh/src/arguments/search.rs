@@ -4,7 +4,7 @@ use std::path::PathBuf;
 use std::time::Duration;
 
 use clap::Args;
-use hssh::pipeline::{GenusOrder, MappingOptions, PriorKind, Score, SearchMethod};
+use hssh::pipeline::{GenusOrder, MappingOptions, MetricalScore, PriorKind, SearchMethod};
 use hssh_topology::Simplicity;
 
 use super::{PlaceArguments, positive};
@@ -48,7 +48,7 @@ pub(crate) struct SearchArguments {
 pub(crate) struct PosteriorArguments {
     /// How measurements count [default: evidence].
     #[arg(long, value_enum, value_name = "HOW", help_heading = "Posterior")]
-    pub(crate) score: Option<Score>,
+    pub(crate) score: Option<MetricalScore>,
     /// What counts besides: flat with --score evidence, else simplicity.
     #[arg(long, value_enum, value_name = "WHAT", help_heading = "Posterior")]
     pub(crate) prior: Option<PriorKind>,

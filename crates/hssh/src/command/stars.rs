@@ -2,16 +2,14 @@
 
 use std::path::Path;
 
-use hssh::answer::counted;
+use hssh::account::{PlaceAccount, PlacesAccount};
 use hssh::pipeline::{MappingOptions, SurveyedLog};
 use hssh_draw::{GridPicture, draw_grid};
 use hssh_local::{
-    DistanceField, DoorParameters, Gateway, LocalMapOptions, LocalStar, Neighborhood, Occupancy,
-    OccupancyGrid, PlaceGraph, PlaceKind, PlaceParameters, Visit, doors, global_map, hidden_area,
-    neighborhood, read_floor_plan, read_map,
+    DistanceField, DoorParameters, LocalMapOptions, Neighborhood, Occupancy, OccupancyGrid, PlaceGraph,
+    PlaceKind, PlaceParameters, Visit, doors, global_map, neighborhood, read_floor_plan, read_map,
 };
 use hssh_metrics::Pose;
-use serde::Serialize;
 
 use crate::arguments::StarsArguments;
 use crate::failure::{Failure, Status};
@@ -20,54 +18,6 @@ use crate::output::{print, print_json, write_file};
 
 /// How far the part of the map that is looked at around one point reaches, in metres, beyond the shallowest way out.
 const MARGIN: f64 = 6.5;
-
-/// What is printed as JSON; metres and radians in the frame of the map.
-#[derive(Serialize)]
-struct Report {
-    places: Vec<PlaceReport>,
-    connections: Vec<[EndReport; 2]>,
-    /// Narrow points of the medial axis; of grid maps only.
-    constrictions: Vec<ConstrictionReport>,
-}
-
-#[derive(Serialize)]
-struct ConstrictionReport {
-    #[serde(flatten)]
-    gateway: GatewayReport,
-    /// Square metres that are in sight from one side of it only.
-    hidden_area: f64,
-    is_door: bool,
-}
-
-#[derive(Serialize)]
-struct PlaceReport {
-    kind: String,
-    center: [f64; 2],
-    clearance: f64,
-    star: String,
-    ends: Vec<StarEndReport>,
-}
-
-#[derive(Serialize)]
-struct StarEndReport {
-    name: String,
-    bearing: f64,
-    gateway: Option<GatewayReport>,
-}
-
-#[derive(Serialize)]
-struct GatewayReport {
-    position: [f64; 2],
-    bearing: f64,
-    width: f64,
-    line: [[f64; 2]; 2],
-}
-
-#[derive(Serialize)]
-struct EndReport {
-    place: u32,
-    end: String,
-}
 
 pub(crate) fn run(options: &StarsArguments) -> Result<Status, Failure> {
     if holds_log(&options.map)? {
@@ -111,12 +61,8 @@ fn everywhere(
         let picture = GridPicture { skeleton, places, constrictions: &doors, ..GridPicture::default() };
         write_file(file, &draw_grid(grid, &picture))?;
     }
-    let report = Report::of(&graph, grid);
-    if options.json {
-        print_json(&report)?;
-    } else {
-        print(&report.text(&options.map, grid))?;
-    }
+    let report = PlacesAccount::of_map(&options.map.display().to_string(), &graph, grid);
+    tell(&report, options)?;
     Ok(if report.places.is_empty() { Status::NothingConsistent } else { Status::Found })
 }
 
@@ -145,19 +91,10 @@ fn along(options: &StarsArguments) -> Result<Status, Failure> {
             2 => PlaceKind::Corner,
             _ => PlaceKind::Junction,
         };
-        PlaceReport::new(kind, [visit.frame.x, visit.frame.y], clearance(visit), &visit.star)
+        PlaceAccount::new(kind, [visit.frame.x, visit.frame.y], clearance(visit), &visit.star)
     };
-    let places: Vec<PlaceReport> = survey.visits.iter().map(place).collect();
-    if options.json {
-        print_json(&Report { places, connections: Vec::new(), constrictions: Vec::new() })?;
-    } else {
-        let visits = counted(places.len(), "visit");
-        let mut text = format!("{}: {visits}, in the frame of the robot's track\n", options.map.display());
-        for (number, place) in places.iter().enumerate() {
-            text += &place.text(number);
-        }
-        print(&text)?;
-    }
+    let places: Vec<PlaceAccount> = survey.visits.iter().map(place).collect();
+    tell(&PlacesAccount::along_log(&options.map.display().to_string(), places), options)?;
     Ok(Status::Found)
 }
 
@@ -182,11 +119,11 @@ fn around(
         write_file(file, &draw_grid(&window, &picture))?;
     }
     let Neighborhood { kind, center, clearance, star, .. } = &found;
-    let place = PlaceReport::new(*kind, *center, *clearance, star);
+    let place = PlaceAccount::new(*kind, *center, *clearance, star);
     if options.json {
         print_json(&place)?;
     } else {
-        print(&place.text(0))?;
+        print(&place.to_text(0))?;
     }
     Ok(Status::Found)
 }
@@ -195,94 +132,6 @@ fn failure(map: &Path, error: impl std::fmt::Display) -> Failure {
     Failure::Usage(format!("{}: {error}", map.display()))
 }
 
-impl Report {
-    fn of(graph: &PlaceGraph, grid: &OccupancyGrid) -> Self {
-        let places = graph.places.iter();
-        let end = |&(place, olp): &(hssh_local::PlaceNumber, hssh_topology::Olp)| EndReport {
-            place: place.0,
-            end: graph.place(place).star.star.name(olp).to_string(),
-        };
-        let criterion = DoorParameters::default();
-        let constriction = |gateway: &Gateway| {
-            let hidden_area = hidden_area(grid, gateway, &criterion);
-            let is_door = criterion.accept(gateway, hidden_area);
-            ConstrictionReport { gateway: GatewayReport::new(gateway), hidden_area, is_door }
-        };
-        Report {
-            places: places
-                .map(|place| PlaceReport::new(place.kind, place.center, place.clearance, &place.star))
-                .collect(),
-            connections: graph.connections.iter().map(|found| found.ends.each_ref().map(end)).collect(),
-            constrictions: graph.constrictions.iter().map(constriction).collect(),
-        }
-    }
-
-    fn text(&self, map: &Path, grid: &OccupancyGrid) -> String {
-        let mut text = format!(
-            "{}: {} × {} cells of {} m; {}, {}\n",
-            map.display(),
-            grid.lattice().width(),
-            grid.lattice().height(),
-            grid.lattice().resolution(),
-            counted(self.places.len(), "place"),
-            counted(self.connections.len(), "connection"),
-        );
-        for (number, place) in self.places.iter().enumerate() {
-            text += &place.text(number);
-        }
-        for [from, to] in &self.connections {
-            text += &format!("{} {} leads to {} {}\n", from.place, from.end, to.place, to.end);
-        }
-        for door in self.constrictions.iter().filter(|found| found.is_door) {
-            let ([x, y], width) = (door.gateway.position, door.gateway.width);
-            text += &format!("a door at ({x:.1}, {y:.1}), {width:.1} m wide\n");
-        }
-        text
-    }
-}
-
-impl GatewayReport {
-    fn new(gateway: &Gateway) -> Self {
-        let Gateway { position, bearing, width, line } = *gateway;
-        GatewayReport { position, bearing, width, line }
-    }
-}
-
-impl PlaceReport {
-    fn new(kind: PlaceKind, center: [f64; 2], clearance: f64, star: &LocalStar) -> Self {
-        let ends = star.star.olps().map(|olp| StarEndReport {
-            name: star.star.name(olp).to_string(),
-            bearing: star.bearings[olp.index()],
-            gateway: star.gateways[olp.index()].as_ref().map(GatewayReport::new),
-        });
-        let kind = match kind {
-            PlaceKind::Passage => "passage",
-            PlaceKind::DeadEnd => "dead end",
-            PlaceKind::Corner => "corner",
-            PlaceKind::Junction => "junction",
-        };
-        PlaceReport {
-            kind: kind.to_owned(),
-            center,
-            clearance,
-            star: star.star.to_string(),
-            ends: ends.collect(),
-        }
-    }
-
-    fn text(&self, number: usize) -> String {
-        let [x, y] = self.center;
-        let mut text = format!("{number}: {} at ({x:.1}, {y:.1}), {}\n", self.kind, self.star);
-        for end in &self.ends {
-            let Some(gateway) = &end.gateway else { continue };
-            let [x, y] = gateway.position;
-            text += &format!(
-                "    {} at {:.0}° through ({x:.1}, {y:.1}), {:.1} m wide\n",
-                end.name,
-                end.bearing.to_degrees(),
-                gateway.width
-            );
-        }
-        text
-    }
+fn tell(account: &PlacesAccount, options: &StarsArguments) -> Result<(), Failure> {
+    if options.json { print_json(account) } else { print(&account.to_string()) }
 }

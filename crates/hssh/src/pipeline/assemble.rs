@@ -189,6 +189,10 @@ pub(super) fn records(input: &Input, considered: usize, best: Option<&AnsweredMa
                 let (first, last) = visit.scans;
                 [first, last].map(|scan| surveyed.scan_number(scan))
             }),
+            times: visit.and_then(|(surveyed, visit)| {
+                let time = |scan: usize| surveyed.log.scans[scan].time;
+                Some([time(visit.scans.0)?, time(visit.scans.1)?])
+            }),
         }
     };
     input.exploration.visits().take(considered + 1).enumerate().map(record).collect()

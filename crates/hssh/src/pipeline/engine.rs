@@ -14,7 +14,7 @@ use hssh_search::{
 use hssh_topology::{GenusRank, Hypothesis, MapOlp, Measure, Position, Preference, StarCatalog};
 
 use super::error::PipelineError;
-use super::options::{GenusOrder, MappingOptions, PriorKind, Score as ScoreChoice, SearchMethod};
+use super::options::{GenusOrder, MappingOptions, MetricalScore, PriorKind, SearchMethod};
 use crate::answer::{
     Assumption, CertificateSummary, CostItem, CostSheet, EndReference, FoundCounts, MapDifference,
     MapMeasure, Objective, PartingVisit, SearchLevel, SearchOrder, SearchSummary, StopCause, TestTravels,
@@ -111,7 +111,7 @@ impl Task<'_> {
             }
         };
         let measured =
-            objective == Objective::Posterior && self.options.posterior.score != ScoreChoice::Ignored;
+            objective == Objective::Posterior && self.options.posterior.score != MetricalScore::Ignored;
         Ok(Searched {
             summary: summary(&report, objective, search_order(order), self.options.search.closed),
             certificate: certificate(&report, measured),
@@ -165,12 +165,13 @@ impl Task<'_> {
             None => Corridor::typical_of(self.exploration).map(PlacePrior::Corridor),
         };
         let metrical = match posterior.score {
-            ScoreChoice::Likelihood => Metrical::Likelihood,
-            ScoreChoice::Ignored => Metrical::Ignored,
+            MetricalScore::Likelihood => Metrical::Likelihood,
+            MetricalScore::Ignored => Metrical::Ignored,
             // Without any measured distance nothing is laid out, and the search will say so.
-            ScoreChoice::Evidence => places.map_or(Metrical::Likelihood, Metrical::Evidence),
+            MetricalScore::Evidence => places.map_or(Metrical::Likelihood, Metrical::Evidence),
         };
-        let usual = if posterior.score == ScoreChoice::Evidence { PriorKind::Flat } else { PriorKind::Simplicity };
+        let usual =
+            if posterior.score == MetricalScore::Evidence { PriorKind::Flat } else { PriorKind::Simplicity };
         let prior = match posterior.prior.unwrap_or(usual) {
             PriorKind::Flat => MapPrior::Flat,
             PriorKind::Choices => MapPrior::Choices,

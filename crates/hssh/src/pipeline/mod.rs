@@ -11,8 +11,8 @@ pub use engine::{Monitor, SearchFailure};
 pub use error::PipelineError;
 pub use input::{Input, SurveyedLog, is_log};
 pub use options::{
-    GenusOrder, MappingOptions, OptionsError, PosteriorChoice, PriorKind, Score, SearchChoice, SearchLimits,
-    SearchMethod,
+    GenusOrder, MappingOptions, MetricalScore, OptionsError, PosteriorChoice, PriorKind, SearchChoice,
+    SearchLimits, SearchMethod,
 };
 pub use places::PlaceChoice;
 

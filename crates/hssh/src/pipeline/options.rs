@@ -19,7 +19,7 @@ use super::places::PlaceChoice;
 /// assert_eq!(options.axioms.max_genus, Some(0));
 ///
 /// let error = MappingOptions::from_ron("(\n  axioms: (planar: true),\n)").unwrap_err();
-/// assert_eq!((error.line(), error.column()), (2, 18));
+/// assert_eq!((error.line(), error.column()), (2, 12));
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 #[derive(Clone, Copy, PartialEq, Debug, Serialize, Deserialize)]
@@ -103,7 +103,7 @@ pub struct SearchChoice {
 /// How well a map fits the measured travels.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Default, Serialize, Deserialize, ValueEnum)]
 #[serde(rename_all = "snake_case")]
-pub enum Score {
+pub enum MetricalScore {
     /// The density of the measurements whatever the layout, with a price for every new place.
     #[default]
     Evidence,
@@ -130,7 +130,7 @@ pub enum PriorKind {
 #[serde(deny_unknown_fields, default)]
 pub struct PosteriorChoice {
     /// How measurements count.
-    pub score: Score,
+    pub score: MetricalScore,
     /// What counts besides; if nothing is said, flat with evidence, else simplicity.
     pub prior: Option<PriorKind>,
     /// The weights of F.
@@ -149,7 +149,7 @@ pub struct PosteriorChoice {
 impl Default for PosteriorChoice {
     fn default() -> Self {
         PosteriorChoice {
-            score: Score::Evidence,
+            score: MetricalScore::Evidence,
             prior: None,
             weights: Simplicity::default(),
             area: None,
@@ -298,10 +298,10 @@ mod tests {
     fn what_is_wrong_is_said_with_its_place() {
         let cases = [
             ("(search: (method: depth_first))", (1, 19), "depth_first"),
-            ("(\n    limits: (\n        seconds: \"soon\",\n    ),\n)", (3, 18), "expected f64"),
+            ("(\n    limits: (\n        seconds: \"soon\",\n    ),\n)", (3, 17), "float"),
             ("(axioms: (planar: true))", (1, 11), "planar"),
-            ("(posterior: (best: -1))", (1, 20), ""),
-            ("(axioms: ", (1, 10), ""),
+            ("(posterior: (best: -1))", (1, 21), "bounds"),
+            ("(axioms: ", (1, 9), "struct"),
         ];
         for (text, place, word) in cases {
             let error = MappingOptions::from_ron(text).unwrap_err();

@@ -17,7 +17,7 @@ use crate::failure::{Failure, Status};
 use crate::output::{print, print_json, write_file};
 
 use optimize::{Optimum, optimize};
-use report::Report;
+use report::account;
 
 /// Up to this many poses are drawn with the ellipse of their covariance.
 const MOST_ELLIPSES: usize = 40;
@@ -33,7 +33,7 @@ pub(crate) fn run(options: &GraphArguments) -> Result<Status, Failure> {
 
     let kinds = edge_kinds(&file.graph, &optimum.weights);
     let name = options.file.display().to_string();
-    let report = Report::new(name, &file, &held, &kinds, &optimum, [reading, solving]);
+    let report = account(name, &file, &held, &kinds, &optimum, [reading, solving]);
     if options.json {
         print_json(&report)?;
     } else {
