@@ -3,7 +3,7 @@
 use std::error::Error;
 use std::time::Duration;
 
-use hssh_search::{Goal, Limits, Mapper, Strategy};
+use hssh_search::{Limits, Mapper, Order, Score};
 use hssh_topology::Axioms;
 use hssh_world::{grid, snake, thesis_3x4};
 
@@ -76,23 +76,21 @@ fn row(case: &Case, limit: Duration) -> Result<Vec<String>, Box<dyn Error>> {
         Some(report) => cells.extend([grouped(report.expanded), format!("{:.3}", report.seconds)]),
         None => cells.extend(["–".to_owned(), "–".to_owned()]),
     }
-    let proof = Strategy::Proof(Goal::AnyMap);
     let limits = Limits { time: Some(limit), bytes: Some(BYTES), ..Limits::default() };
     let report =
-        Mapper::builder().axioms(axioms).strategy(proof).limits(limits).explain(&exploration)?.report();
-    let show = |measure: Option<hssh_topology::Measure>| {
-        measure.map_or("none".to_owned(), |m| {
-            format!("({}, {}, {})", m.undetermined_boundaries, m.paths, m.places)
-        })
+        Mapper::builder().axioms(axioms).order(Order::Proof).limits(limits).explain(&exploration)?.report();
+    let show = |score: Option<Score>| match score {
+        Some(Score::Measure(m)) => format!("({}, {}, {})", m.undetermined_boundaries, m.paths, m.places),
+        _ => "none".to_owned(),
     };
-    let certificate = report.certificate.ok_or("a search with proof has a certificate")?;
-    let optimal = if certificate.proved { grouped(report.finals.optimal) } else { report.stop.to_string() };
+    let known = report.proof.ok_or("a search by a bound has a proof")?;
+    let optimal = if known.proved { grouped(report.finals.optimal) } else { report.stop.to_string() };
     cells.extend([
         grouped(report.expanded),
         format!("{:.3}", report.seconds),
         optimal,
-        show(certificate.best),
-        show(certificate.open_bound),
+        show(known.best),
+        show(known.open_bound),
     ]);
     Ok(cells)
 }

@@ -55,7 +55,7 @@ pub(crate) fn measure(flags: &flags::Measure) -> Result<(), Box<dyn Error>> {
         (mapper.tree().len() as u64, mapper.tree().bytes())
     } else {
         let report = Mapper::builder().axioms(case.axioms).threads(flags.threads).count(&exploration)?;
-        (report.nodes, report.tree_bytes)
+        (report.nodes, report.bytes)
     };
     let Usage { user_seconds, peak_bytes } = Usage::now()?;
     println!("{}", serde_json::to_string(&Measurement { nodes, tree_bytes, user_seconds, peak_bytes })?);

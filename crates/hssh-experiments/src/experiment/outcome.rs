@@ -81,10 +81,10 @@ pub(crate) fn outcome(run: &Run, data: Option<&Path>, threads: usize) -> Result<
     };
     let builder = Mapper::builder().axioms(run.axioms).preference(run.preference).threads(threads);
     let builder = builder.limits(run.limits.into());
-    let (report, mapper) = match run.search.strategy() {
+    let (report, mapper) = match run.search.order_and_goal() {
         None => (builder.count(&case.exploration)?, None),
-        Some(strategy) => {
-            let mapper = builder.strategy(strategy).explain(&case.exploration)?;
+        Some((order, goal)) => {
+            let mapper = builder.order(order).goal(goal).explain(&case.exploration)?;
             (mapper.report(), Some(mapper))
         }
     };

@@ -20,7 +20,7 @@
 
 use std::time::Duration;
 
-use hssh_search::{Goal, Limits, StopReason, Strategy};
+use hssh_search::{Goal, Limits, Order, StopReason};
 use hssh_topology::{Axioms, Preference};
 use ron::extensions::Extensions;
 use serde::Deserialize;
@@ -115,13 +115,13 @@ pub(crate) enum Search {
 }
 
 impl Search {
-    /// The mapper's strategy; `None` if it takes no mapper.
-    pub(crate) fn strategy(self) -> Option<Strategy> {
+    /// The mapper's order, and what it accepts; `None` if it takes no mapper.
+    pub(crate) fn order_and_goal(self) -> Option<(Order, Goal)> {
         match self {
             Search::Exhaustive => None,
-            Search::BreadthFirst => Some(Strategy::BreadthFirst),
-            Search::BestFirst(goal) => Some(Strategy::BestFirst(goal)),
-            Search::Proof(goal) => Some(Strategy::Proof(goal)),
+            Search::BreadthFirst => Some((Order::BreadthFirst, Goal::AnyMap)),
+            Search::BestFirst(goal) => Some((Order::BestFirst, goal)),
+            Search::Proof(goal) => Some((Order::Proof, goal)),
         }
     }
 

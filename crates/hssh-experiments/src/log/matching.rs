@@ -5,7 +5,7 @@ use std::error::Error;
 
 use hssh_causal::Exploration;
 use hssh_local::{Survey, resemblance};
-use hssh_search::{Appearance, Mapper, PosteriorModel, PosteriorOrder, PosteriorSearch, Proving};
+use hssh_search::{Appearance, Mapper, Order, PosteriorModel, Proving};
 use hssh_topology::{Axioms, Isomorphism, Position};
 
 use super::truth::Truth;
@@ -101,11 +101,11 @@ pub(super) fn gain(survey: &Survey, exploration: &Exploration) -> Result<String,
             found.map_or(0.0, |found| weight * found.log_likelihood_ratio)
         });
         let axioms = Axioms { max_genus: Some(0), ..Axioms::default() };
-        let order = PosteriorOrder::Proof(Proving { best: 1, rest: REST });
-        let search = PosteriorSearch { axioms, appearance, order, ..PosteriorSearch::new(model) };
-        let posterior = search.explain(exploration)?;
-        let best = posterior.maps().first().ok_or("no map")?;
-        said.push(format!("{:.3} at {weight}", best.probability));
+        let search = Mapper::builder().posterior(model).axioms(axioms).appearance(appearance);
+        let search = search.order(Order::Cyclic).proving(Proving { rest: REST, ..Proving::default() });
+        let maps = search.explain(exploration)?.maps(1);
+        let best = maps.first().and_then(|map| map.probable.as_ref()).ok_or("no map")?;
+        said.push(format!("{:.3} at {weight}", best.at_most));
     }
     Ok(format!("  probability of the best planar map by the weight of local maps: {}", said.join(", ")))
 }

@@ -5,8 +5,7 @@ use std::error::Error;
 use hssh_causal::Exploration;
 use hssh_metrics::UniformPrior;
 use hssh_search::{
-    Goal, Limits, MapPrior, Mapper, Metrical, PlacePrior, PosteriorModel, PosteriorOrder, PosteriorSearch,
-    Proving, Strategy,
+    Goal, Limits, MapPrior, Mapper, MapperBuilder, Metrical, Order, PlacePrior, PosteriorModel,
 };
 use hssh_topology::{Axioms, Simplicity};
 use hssh_world::{PolarNoise, grid, snake};
@@ -32,14 +31,13 @@ const NOISES: [f64; 5] = [0.1, 0.3, 0.6, 1.0, 2.0];
 struct Method {
     name: &'static str,
     model: fn(&Exploration) -> Option<PosteriorModel>,
-    order: PosteriorOrder,
+    order: Order,
     planar: bool,
     goal: Goal,
     /// In how many of the first five seeds it finds the true map, by noise: as measured, to notice a change.
     expected: [usize; NOISES.len()],
 }
 
-const PROOF: PosteriorOrder = PosteriorOrder::Proof(Proving { best: 1, rest: 1.0 });
 const F: MapPrior = MapPrior::Simplicity(Simplicity { c1: 0.0, c2: 2.0, c3: 1.0 });
 
 fn likelihood(prior: MapPrior) -> PosteriorModel {
@@ -61,7 +59,7 @@ fn uniform(_: &Exploration) -> Option<PosteriorModel> {
 const INTEGRATED: Method = Method {
     name: "integrated",
     model: |_| Some(PosteriorModel::THESIS),
-    order: PosteriorOrder::BestFirst,
+    order: Order::BestFirst,
     planar: true,
     goal: Goal::ClosedMap,
     expected: [5, 5, 5, 5, 5],
@@ -71,7 +69,7 @@ const INTEGRATED: Method = Method {
 const EVIDENCE: Method = Method {
     name: "evidence, corridors",
     model: |exploration| evidence(exploration, MapPrior::Flat),
-    order: PROOF,
+    order: Order::Cyclic,
     planar: true,
     goal: Goal::AnyMap,
     expected: [5, 5, 3, 0, 0],
@@ -138,17 +136,11 @@ struct Row {
 }
 
 impl Method {
-    fn search(&self, exploration: &Exploration) -> Option<PosteriorSearch> {
+    fn search(&self, exploration: &Exploration) -> Option<MapperBuilder> {
         let axioms = Axioms { max_genus: self.planar.then_some(0), ..Axioms::default() };
         let limits = Limits { nodes: Some(MOST_NODES), ..Limits::default() };
-        let (order, goal) = (self.order, self.goal);
-        Some(PosteriorSearch {
-            axioms,
-            order,
-            goal,
-            limits,
-            ..PosteriorSearch::new((self.model)(exploration)?)
-        })
+        let search = Mapper::builder().posterior((self.model)(exploration)?).axioms(axioms).limits(limits);
+        Some(search.order(self.order).goal(self.goal))
     }
 }
 
@@ -165,7 +157,7 @@ pub(super) fn run(flags: &flags::Experiment) -> Result<(), Box<dyn Error>> {
         let (method, noise) = (&METHODS[row / NOISES.len()], polar(NOISES[row % NOISES.len()]));
         let exploration = course.explore(&noise, seed as u64)?;
         let search = method.search(&exploration).ok_or("the exploration has no odometry")?;
-        course.try_out(&search, &exploration)
+        course.try_out(search, &exploration)
     })?;
     let rows: Vec<Row> = trials
         .chunks(seeds)
@@ -195,7 +187,7 @@ fn polar(noise: f64) -> PolarNoise {
 /// The map selected by topology alone: best-first by preference, back until closed.
 fn by_preference(course: &Course) -> Result<String, Box<dyn Error>> {
     let axioms = Axioms { max_genus: Some(0), ..Axioms::default() };
-    let mapper = Mapper::builder().axioms(axioms).strategy(Strategy::BestFirst(Goal::ClosedMap));
+    let mapper = Mapper::builder().axioms(axioms).order(Order::BestFirst).goal(Goal::ClosedMap);
     let (report, maps) = mapper.explain(&course.world.explore(&course.route)?)?.answer(1);
     let measure = maps.first().map_or("no map".to_owned(), |map| map.measure.to_string());
     Ok(format!(

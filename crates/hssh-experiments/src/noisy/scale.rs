@@ -3,7 +3,7 @@
 use std::error::Error;
 use std::time::Duration;
 
-use hssh_search::{Limits, PosteriorModel, PosteriorOrder, PosteriorSearch, Proving};
+use hssh_search::{Limits, Mapper, Order, PosteriorModel};
 use hssh_topology::Axioms;
 use hssh_world::{PolarNoise, cover, grid, random_planar, snake};
 use serde::Serialize;
@@ -44,13 +44,12 @@ pub(super) fn run(flags: &flags::Experiment) -> Result<(), Box<dyn Error>> {
         let trials = on_threads(flags.threads.unwrap_or(1), seeds, |seed| {
             let exploration = courses[seed].explore(&NOISE, seed as u64)?;
             let model = PosteriorModel::evidence(&exploration).ok_or("no odometry")?;
-            let search = PosteriorSearch {
-                axioms: Axioms { max_genus: Some(0), ..Axioms::default() },
-                order: PosteriorOrder::Proof(Proving { best: 1, rest: 1.0 }),
-                limits: Limits { time: Some(Duration::from_secs(seconds)), ..Limits::default() },
-                ..PosteriorSearch::new(model)
-            };
-            courses[seed].try_out(&search, &exploration)
+            let search = Mapper::builder()
+                .posterior(model)
+                .order(Order::Cyclic)
+                .axioms(Axioms { max_genus: Some(0), ..Axioms::default() })
+                .limits(Limits { time: Some(Duration::from_secs(seconds)), ..Limits::default() });
+            courses[seed].try_out(search, &exploration)
         })?;
         let places = courses[0].world.places().len();
         let travels = courses[0].world.visits(&courses[0].route)?.len() - 1;

@@ -5,7 +5,7 @@ use std::sync::Mutex;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 use hssh_causal::Exploration;
-use hssh_search::{PosteriorSearch, StopReason};
+use hssh_search::{MapperBuilder, Score};
 use hssh_world::{PolarNoise, Route, World};
 use serde::Serialize;
 
@@ -45,15 +45,16 @@ impl Course {
     /// Searches, and looks whether the best map is the true one.
     pub(crate) fn try_out(
         &self,
-        search: &PosteriorSearch,
+        search: MapperBuilder,
         exploration: &Exploration,
     ) -> Result<Trial, Box<dyn Error>> {
-        let posterior = search.explain(exploration)?;
-        let report = posterior.report();
-        let right = match posterior.maps().first() {
+        let mapper = search.explain(exploration)?;
+        let (report, maps) = mapper.answer(1);
+        let proof = report.proof.ok_or("a search by posterior has a bound")?;
+        let right = match maps.first() {
             None => false,
             Some(best) => {
-                let visits = posterior.visits(best.node);
+                let visits = mapper.visits(best.node);
                 let truth = self.world.visits(&self.route)?;
                 let same = |a: usize, b: usize| visits[a].place == visits[b].place;
                 let truly_same = |a: usize, b: usize| truth[a] == truth[b];
@@ -62,18 +63,22 @@ impl Course {
                     && (0..truth.len()).all(|a| (0..a).all(|b| same(a, b) == truly_same(a, b)))
             }
         };
-        let best = report.best.unwrap_or(f64::INFINITY);
+        let nats = |score: Option<Score>| match score {
+            Some(Score::Nats(nats)) => nats,
+            _ => f64::INFINITY,
+        };
+        let probable = maps.first().and_then(|best| best.probable.as_ref());
         Ok(Trial {
             right,
-            proved: report.proved,
-            stopped: !matches!(report.stop, StopReason::Found | StopReason::Proved | StopReason::Exhausted),
+            proved: report.is_optimal,
+            stopped: !report.stop.is_complete(),
             expanded: report.expanded,
             solved: report.solved,
             seconds: report.seconds,
             bytes: report.bytes,
-            gap: report.open_bound.unwrap_or(f64::INFINITY) - best,
-            probability: posterior.maps().first().map_or(0.0, |best| best.least_probability),
-            linear_factor: report.linear_factor,
+            gap: nats(proof.open_bound) - nats(proof.best),
+            probability: probable.map_or(0.0, |probable| probable.at_least),
+            linear_factor: proof.linear_factor,
         })
     }
 }

@@ -4,7 +4,7 @@ use std::error::Error;
 use std::time::{Duration, Instant};
 
 use hssh_local::{LaserLog, Survey, SurveyOptions, survey};
-use hssh_search::{Limits, PosteriorModel, PosteriorSearch};
+use hssh_search::{Limits, Mapper, Order, PosteriorModel};
 use hssh_topology::Axioms;
 use hssh_world::robot::{Drive, Ending, RobotOptions, Strategy, drive, touches};
 
@@ -92,14 +92,15 @@ fn visited(course: &Course, log: &LaserLog, survey: &Survey) -> Vec<Option<usize
 fn is_mapped(survey: &Survey, truth: &[Option<usize>]) -> bool {
     let Ok(exploration) = survey.exploration() else { return false };
     let Some(model) = PosteriorModel::evidence(&exploration) else { return false };
-    let search = PosteriorSearch {
-        axioms: Axioms { max_genus: Some(0), ..Axioms::default() },
-        limits: Limits { time: Some(Duration::from_secs(SECONDS)), ..Limits::default() },
-        ..PosteriorSearch::new(model)
-    };
-    let Ok(posterior) = search.explain(&exploration) else { return false };
-    let Some(best) = posterior.maps().first() else { return false };
-    let visits = posterior.visits(best.node);
+    let search = Mapper::builder()
+        .posterior(model)
+        .order(Order::Cyclic)
+        .axioms(Axioms { max_genus: Some(0), ..Axioms::default() })
+        .limits(Limits { time: Some(Duration::from_secs(SECONDS)), ..Limits::default() });
+    let Ok(mapper) = search.explain(&exploration) else { return false };
+    let maps = mapper.maps(1);
+    let Some(best) = maps.first() else { return false };
+    let visits = mapper.visits(best.node);
     let is_same = |a: usize, b: usize| (visits[a].place == visits[b].place) == (truth[a] == truth[b]);
     (0..truth.len()).all(|a| (0..a).all(|b| is_same(a, b)))
 }
