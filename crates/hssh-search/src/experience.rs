@@ -45,6 +45,17 @@ impl Visit {
         Visit { exit, entry, star: star.clone(), bearings, odometry: None, likeness }
     }
 
+    /// The visit that a travel of an exploration ends in, the first travel being 0. Where stars of an exploration have no bearings, the
+    /// visit has none either.
+    #[must_use]
+    pub fn of(exploration: &Exploration, travel: usize) -> Self {
+        let travel = &exploration.travels()[travel];
+        let named = &exploration.star_types()[travel.star.index()];
+        let (exit, entry, star, bearings) =
+            (travel.exit, travel.entry, named.star.clone(), named.bearings.clone());
+        Visit { exit, entry, star, bearings, odometry: travel.odometry, likeness: Vec::new() }
+    }
+
     /// The same with a measured way.
     #[must_use]
     pub fn with_odometry(self, odometry: Odometry) -> Self {

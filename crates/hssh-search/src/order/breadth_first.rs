@@ -3,7 +3,7 @@
 use std::ops::Range;
 
 use hssh_metrics::SolveError;
-use hssh_topology::{Outcome, Preference, Removals, Step};
+use hssh_topology::{Measure, Outcome, Preference, Removals, Step};
 
 use crate::context::Context;
 use crate::engine::Engine;
@@ -122,16 +122,17 @@ impl Fringe {
     ) -> (FinalCounts, Vec<RankedMap>) {
         let surveyed = context.crew.map(&self.pieces(), context.experience, |cursor, piece| {
             let mut counts = FinalCounts::default();
-            let mut best: Vec<RankedMap> = Vec::new();
+            let mut best = Vec::new();
             for node in piece.clone().map(NodeId::new) {
                 let map = &cursor.go_to(node, tree, context.experience).map;
                 counts.record(map, preference);
                 if keep > 0 {
-                    best.push(RankedMap::of(node, map));
+                    best.push((preference.rank(Measure::of(map)), node));
                 }
             }
-            best.sort_by_key(|map| (preference.rank(map.measure), map.node));
+            best.sort_unstable();
             best.truncate(keep);
+            best.shrink_to_fit();
             (counts, best)
         });
         let mut counts = FinalCounts::default();
@@ -141,9 +142,12 @@ impl Fringe {
             best.extend(best_of_piece);
         }
         // In a fringe the order of creation is that of branches.
-        best.sort_by_key(|map| (preference.rank(map.measure), map.node));
+        best.sort_unstable();
         best.truncate(keep);
-        (counts, best)
+        let ranked = context.crew.map(&best, context.experience, |cursor, &(_, node)| {
+            RankedMap::of(node, &cursor.go_to(node, tree, context.experience).map)
+        });
+        (counts, ranked)
     }
 
     fn pieces(&self) -> Vec<Range<u32>> {

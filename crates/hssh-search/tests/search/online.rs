@@ -2,12 +2,14 @@
 
 use hssh_causal::Exploration;
 use hssh_search::{
-    Branch, Experience, Goal, Mapper, Order, RankedMap, Report, StopReason, Visit, VisitError,
+    Branch, Experience, Goal, Mapper, MapperBuilder, Order, PosteriorModel, Proving, RankedMap, Report,
+    StopReason, Visit, VisitError,
 };
 use hssh_topology::{Axioms, Derivation, MapSketch, Measure, Olp, Star};
+use hssh_world::{DriftModel, grid, snake};
 use proptest::prelude::*;
 
-use crate::cases::{Way, case, sketch, sketches};
+use crate::cases::{Way, case, planar, sketch, sketches};
 use crate::threads::STRATEGIES;
 
 fn observe_all(
@@ -102,6 +104,78 @@ proptest! {
             prop_assert_eq!(map.closed, whole.report().stop == StopReason::Found);
         }
     }
+}
+
+fn drifting_snake(size: u32, seed: u64) -> Exploration {
+    let world = grid(size, size, 8.0).unwrap();
+    let route = world.route_through(&snake(size, size)).unwrap();
+    world.explore_with_odometry(&route, &DriftModel::default(), seed).unwrap()
+}
+
+fn begin(builder: MapperBuilder, exploration: &Exploration) -> Mapper {
+    let named = &exploration.star_types()[exploration.start().index()];
+    builder.start_with(&named.star, &named.bearings).unwrap()
+}
+
+/// After every travel the most probable map, its cost and its proof are those of a search of all travels so far; also where corridors
+/// lead is estimated from these.
+#[test]
+fn the_posterior_on_the_way() {
+    for (seed, order) in [(1, Order::Cyclic), (2, Order::Cyclic), (3, Order::Proof), (4, Order::BreadthFirst)] {
+        let exploration = drifting_snake(3, seed);
+        let search = || Mapper::builder().order(order).axioms(planar());
+        let mut mapper = begin(search().posterior(PosteriorModel::ONLINE), &exploration);
+        for travel in 0..exploration.travels().len() {
+            mapper.observe(Visit::of(&exploration, travel)).unwrap();
+            assert!(mapper.advance().is_complete());
+            let so_far = exploration.prefix(travel + 1);
+            let model = PosteriorModel::evidence(&so_far).unwrap();
+            let whole = search().posterior(model).explain(&so_far).unwrap();
+            let [on_the_way, at_once] = [&mapper, &whole].map(|mapper| mapper.answer(1));
+            assert_eq!(on_the_way.0.is_optimal, at_once.0.is_optimal);
+            let (best, expected) = (&on_the_way.1[0], &at_once.1[0]);
+            assert_eq!(mapper.branch(best.node), whole.branch(expected.node));
+            let (cost, expected) = (best.nats().unwrap(), expected.nats().unwrap());
+            assert!((cost - expected).abs() < 1e-6 * (1.0 + expected), "travel {travel}: {cost} {expected}");
+        }
+    }
+}
+
+/// With patience there is an answer after every travel, at the price of a few expansions; what is not proved is not said to be.
+#[test]
+fn patience_bounds_the_work_of_a_travel() {
+    let exploration = drifting_snake(6, 1);
+    let proving = Proving { patience: Some(30), ..Proving::default() };
+    let search = Mapper::builder().posterior(PosteriorModel::ONLINE).order(Order::Cyclic).proving(proving);
+    let mut mapper = begin(search.axioms(planar()), &exploration);
+    let mut before = 0;
+    for travel in 0..exploration.travels().len() {
+        mapper.observe(Visit::of(&exploration, travel)).unwrap();
+        assert!(mapper.advance().is_complete());
+        assert_eq!(mapper.explained(), travel + 1);
+        let expanded = mapper.report().expanded;
+        assert!(expanded - before < 400, "travel {travel}: {}", expanded - before);
+        before = expanded;
+    }
+    let known: Vec<u32> = mapper.visits(mapper.maps(1)[0].node).iter().map(|at| at.place.number()).collect();
+    assert_eq!(known.iter().max(), Some(&35), "the true map has 36 places");
+}
+
+/// What cannot be used is refused when it is told, and forgotten.
+#[test]
+fn a_travel_that_is_not_measured_is_refused() {
+    let exploration = drifting_snake(3, 1);
+    let search = Mapper::builder().posterior(PosteriorModel::ONLINE).order(Order::Cyclic);
+    let mut mapper = begin(search, &exploration);
+    let visit = Visit::of(&exploration, 0);
+    let refusal = mapper.observe(Visit { odometry: None, ..visit.clone() }).unwrap_err();
+    assert_eq!(refusal.to_string(), "travel 1 has no odometry; the posterior needs it for every travel");
+    let bearings = vec![None];
+    let refusal = mapper.observe(Visit { bearings, ..visit.clone() }).unwrap_err();
+    assert!(refusal.to_string().contains("ends but 1 bearings"), "{refusal}");
+    mapper.observe(visit).unwrap();
+    mapper.advance();
+    assert_eq!((mapper.explained(), mapper.experience().observations.len()), (1, 1));
 }
 
 /// Nothing observed but the first star: one map, once, however often one asks.

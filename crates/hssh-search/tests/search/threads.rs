@@ -1,9 +1,9 @@
 //! The number of threads changes nothing but the time.
 
 use hssh_causal::Exploration;
-use hssh_search::{Goal, Limits, Mapper, Order, Report};
+use hssh_search::{Goal, Limits, Mapper, Order, PosteriorModel, Report};
 use hssh_topology::Axioms;
-use hssh_world::{snake, thesis_3x4};
+use hssh_world::{DriftModel, grid, snake, thesis_3x4};
 use proptest::prelude::*;
 
 use crate::cases::{Way, case, grid_walk, planar, sketches};
@@ -64,6 +64,33 @@ fn a_limit_on_nodes_stops_at_the_same_node() {
     for nodes in [0, 1, 100, 1000, 3000] {
         let limits = Limits { nodes: Some(nodes), ..Limits::default() };
         threads_change_nothing(&grid_walk(4, 4, &snake(4, 4)), planar(), limits);
+    }
+}
+
+/// Eight fronts sweep a long exploration at once; who does their work does not matter.
+#[test]
+fn the_posterior() {
+    let world = grid(6, 6, 8.0).unwrap();
+    let route = world.route_through(&snake(6, 6)).unwrap();
+    let exploration = world.explore_with_odometry(&route, &DriftModel::default(), 1).unwrap();
+    let model = PosteriorModel::evidence(&exploration).unwrap();
+    for order in [Order::Cyclic, Order::Proof, Order::BestFirst] {
+        let search = |threads| {
+            let limits = Limits { nodes: Some(3000), ..Limits::default() };
+            let search = Mapper::builder().posterior(model).order(order).axioms(planar()).limits(limits);
+            search.threads(threads).explain(&exploration).unwrap()
+        };
+        let alone = search(1);
+        for threads in [2, 3] {
+            let together = search(threads);
+            assert_eq!(timeless(together.report()), timeless(alone.report()));
+            assert_eq!(together.maps(usize::MAX), alone.maps(usize::MAX));
+            let nodes = |mapper: &Mapper| {
+                let tree = mapper.tree();
+                tree.nodes().map(|node| (tree.parent(node), tree.derivation(node))).collect::<Vec<_>>()
+            };
+            assert_eq!(nodes(&together), nodes(&alone));
+        }
     }
 }
 
