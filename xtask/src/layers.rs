@@ -11,7 +11,7 @@ use crate::root;
 ///
 /// The layers follow the SSH: control and causal below topological, metrical beside it, search above.
 /// Dev-dependencies are free; `hssh-oracle` may be nothing else.
-const LAYERS: [(&str, &[&str]); 10] = [
+const LAYERS: [(&str, &[&str]); 11] = [
     ("hssh-topology", &[]),
     ("hssh-causal", &["hssh-topology"]),
     ("hssh-metrics", &[]),
@@ -33,7 +33,7 @@ const LAYERS: [(&str, &[&str]); 10] = [
         ],
     ),
     (
-        "xtask",
+        "hssh-experiments",
         &[
             "hssh-topology",
             "hssh-causal",
@@ -45,6 +45,7 @@ const LAYERS: [(&str, &[&str]); 10] = [
             "hssh",
         ],
     ),
+    ("xtask", &[]),
 ];
 
 /// What `cargo metadata` says of the workspace, as far as it matters here.

@@ -1,33 +1,28 @@
-//! Scripted experiments, benchmarks and checks.
+//! The checks of this repository; every other command goes on to `hssh-experiments`.
 #![allow(clippy::print_stdout, clippy::print_stderr)] // a program reports on the terminal
 
-mod aces;
-mod bench;
-mod branching;
-mod causal;
 mod ci;
-mod experiment;
-#[allow(unreachable_pub)] // generated
-mod flags;
-mod grids;
+mod experiments;
 mod layers;
-mod log;
-mod noisy;
-mod peers;
-mod pose_graphs;
-mod robot;
 mod root;
-mod table;
 mod tidy;
 
+use std::env;
 use std::error::Error;
+use std::ffi::OsString;
 use std::process::ExitCode;
 
-use flags::{Xtask, XtaskCmd};
+const HELP: &str = "Checks:
+    tidy    Checks what lints cannot: module sentences, file lengths, words, layers.
+    ci      Everything that has to pass before a change is taken.
+
+Experiments, benchmarks and measurements:
+";
 
 fn main() -> ExitCode {
-    match run(Xtask::from_env_or_exit().subcommand) {
-        Ok(()) => ExitCode::SUCCESS,
+    let arguments: Vec<OsString> = env::args_os().skip(1).collect();
+    match run(&arguments) {
+        Ok(code) => code,
         Err(error) => {
             eprintln!("error: {error}");
             ExitCode::FAILURE
@@ -35,23 +30,17 @@ fn main() -> ExitCode {
     }
 }
 
-fn run(command: XtaskCmd) -> Result<(), Box<dyn Error>> {
-    match command {
-        XtaskCmd::Experiment(flags) => experiment::run(&flags),
-        XtaskCmd::Branching(flags) => branching::run(&flags),
-        XtaskCmd::Causal(flags) => causal::run(&flags),
-        XtaskCmd::Bench(flags) => bench::run(&flags),
-        XtaskCmd::Peers(flags) => peers::run(&flags),
-        XtaskCmd::Measure(flags) => bench::speed::measure(&flags),
-        XtaskCmd::Aces(flags) => {
-            let out = flags.out.unwrap_or_else(|| root::fixtures().join("aces.ron"));
-            println!("{}", aces::make(&flags.data, &out)?);
-            Ok(())
+fn run(arguments: &[OsString]) -> Result<ExitCode, Box<dyn Error>> {
+    let words: Vec<&str> = arguments.iter().map(|word| word.to_str().unwrap_or_default()).collect();
+    match words[..] {
+        ["tidy"] => tidy::run()?,
+        ["ci"] => ci::run()?,
+        ["tidy" | "ci", unexpected, ..] => return Err(format!("unexpected argument `{unexpected}`").into()),
+        [] | ["help" | "-h" | "--help"] => {
+            print!("{HELP}");
+            return experiments::run(["--help"]);
         }
-        XtaskCmd::Grids(flags) => grids::run(&flags),
-        XtaskCmd::Log(flags) => log::run(&flags.data),
-        XtaskCmd::Robot(flags) => robot::run(&flags),
-        XtaskCmd::Tidy(_) => tidy::run(),
-        XtaskCmd::Ci(_) => ci::run(),
+        _ => return experiments::run(arguments),
     }
+    Ok(ExitCode::SUCCESS)
 }

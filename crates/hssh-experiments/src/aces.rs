@@ -170,7 +170,7 @@ fn turned(theta: f64) -> Pose {
 mod tests {
     use super::*;
 
-    const FIXTURE: &str = include_str!("../../fixtures/aces.ron");
+    const FIXTURE: &str = include_str!("../../../fixtures/aces.ron");
 
     #[test]
     fn the_fixture_is_what_the_log_gives() {

@@ -3,8 +3,8 @@
 use std::path::PathBuf;
 
 xflags::xflags! {
-    /// Scripted experiments, benchmarks and checks.
-    cmd xtask {
+    /// Scripted experiments, benchmarks and measurements.
+    cmd experiments {
         /// Runs scripted experiments (fixtures/experiments) and compares them with published values.
         cmd experiment {
             /// Which one: the name of its file without `.ron`.
@@ -56,7 +56,7 @@ xflags::xflags! {
             /// Its threads.
             required threads: usize
         }
-        /// Solves the same pose graphs with hssh, GTSAM and g2o (see xtask/scripts/peers.py) and compares the times.
+        /// Solves the same pose graphs with hssh, GTSAM and g2o (see crates/hssh-experiments/scripts/peers.py) and compares the times.
         cmd peers {
             /// The folder that contains `posegraph/`; the environment variable HSSH_DATA if not given.
             optional data: PathBuf
@@ -95,9 +95,5 @@ xflags::xflags! {
             /// Only small floors and usual noise, one drive each; fail if one goes wrong.
             optional --check
         }
-        /// Checks what lints cannot: module sentences, file lengths, words, layers.
-        cmd tidy {}
-        /// Everything that has to pass before a change is taken.
-        cmd ci {}
     }
 }

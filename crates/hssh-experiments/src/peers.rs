@@ -89,7 +89,7 @@ fn measure(file: &GraphFile, runs: usize) -> Result<(Timing, Solution), Box<dyn 
 fn peers(start: &Path, flags: &flags::Peers, runs: usize) -> Result<Vec<Peer>, Box<dyn Error>> {
     let default = [PathBuf::from("python3")];
     let interpreters = if flags.python.is_empty() { &default[..] } else { &flags.python[..] };
-    let script = root::root().join("xtask/scripts/peers.py");
+    let script = root::scripts().join("peers.py");
     let mut measured = Vec::new();
     for interpreter in interpreters {
         let output = Command::new(interpreter)

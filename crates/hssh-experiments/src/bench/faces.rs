@@ -165,7 +165,7 @@ fn peer(grid: &Grid) -> Result<Option<Peer>, Box<dyn Error>> {
     }
     let path = std::env::temp_dir().join(format!("rotation-system-{}.txt", std::process::id()));
     fs::write(&path, grid.text())?;
-    let script = root::root().join("xtask/scripts/networkx_faces.py");
+    let script = root::scripts().join("networkx_faces.py");
     let output = Command::new("python3").arg(script).arg(&path).output();
     fs::remove_file(&path)?;
     let output = output?;
