@@ -237,17 +237,14 @@ impl MappingOptions {
             ("limits.seconds", limits.seconds),
         ];
         let more_than_zero = [("posterior.area", posterior.area), ("posterior.rest", Some(posterior.rest))];
-        let refused = |name: &str, number: f64, what: &str| {
-            Err(PipelineError::Options(format!("the option {name} is {number}: write a {what} number")))
-        };
-        for (name, number) in least_zero.into_iter().filter_map(|(name, number)| Some((name, number?))) {
-            if !(number.is_finite() && number >= 0.0) {
-                return refused(name, number, "finite and not negative");
-            }
-        }
-        for (name, number) in more_than_zero.into_iter().filter_map(|(name, number)| Some((name, number?))) {
-            if !(number.is_finite() && number > 0.0) {
-                return refused(name, number, "positive and finite");
+        let is_right =
+            |number: f64, least: bool| number.is_finite() && (number > 0.0 || least && number == 0.0);
+        let numbers = least_zero.map(|(name, number)| (name, number, true)).into_iter();
+        for (name, number, least) in numbers.chain(more_than_zero.map(|(name, number)| (name, number, false)))
+        {
+            if let Some(number) = number.filter(|&number| !is_right(number, least)) {
+                let what = if least { "finite and not negative" } else { "finite and positive" };
+                return Err(PipelineError::Number { name, number, what });
             }
         }
         Ok(())
