@@ -98,6 +98,8 @@ fn help(error: &PipelineError) -> &'static str {
         PipelineError::Search(SearchFailure::Mapper(_)) => {
             "\nhelp: --search breadth-first goes by topology alone"
         }
+        PipelineError::ClosedOfAll => "\nhelp: --closed goes with --search posterior, best-first and proof",
+        PipelineError::GenusOfPosterior => "\nhelp: --planar and --max-genus bound it in every search",
         _ => "",
     }
 }

@@ -24,11 +24,29 @@ fn from_a_floor_to_its_map() {
     assert_eq!(explored["visits"].as_array().map(Vec::len), Some(5));
     assert_eq!(explored["travels"].as_array().map(Vec::len), Some(4));
     assert_eq!(explored["visits"][0]["exit"].is_string(), explored["visits"][4]["entry"].is_string());
+    scans_are_counted_among_all(&log, &explored);
     let mapped = hssh(&["map", &exploration, "--json"]);
     let mapped: serde_json::Value = serde_json::from_slice(&mapped.stdout).expect("the report is JSON");
     let best = &mapped["maps"][0];
     assert!(best["measure"]["places"] == 4 && best["closed"] == true, "{mapped}");
     let _ = std::fs::remove_dir_all(folder);
+}
+
+/// A scan that cannot be used moves the numbers of those after it, and nothing else.
+fn scans_are_counted_among_all(log: &str, explored: &serde_json::Value) {
+    let text = std::fs::read_to_string(log).expect("the log was written");
+    std::fs::write(log, format!("FLASER 2 1.0 broken\n{text}")).expect("it can be written again");
+    let again = hssh(&["explore", log, "--json"]);
+    let mut again: serde_json::Value = serde_json::from_slice(&again.stdout).expect("the account is JSON");
+    assert_eq!(again["scans"].as_u64(), explored["scans"].as_u64().map(|scans| scans + 1));
+    assert_eq!(again["warnings"][0]["where"][0]["line"], 1);
+    for (visit, before) in again["visits"].as_array_mut().into_iter().flatten().zip(0..) {
+        let before = &explored["visits"][before];
+        assert_eq!(visit["scan"].as_u64(), before["scan"].as_u64().map(|scan| scan + 1));
+        assert_eq!(visit["scans"][1].as_u64(), before["scans"][1].as_u64().map(|scan| scan + 1));
+        (visit["scan"], visit["scans"]) = (before["scan"].clone(), before["scans"].clone());
+        assert_eq!(*visit, *before);
+    }
 }
 
 #[test]

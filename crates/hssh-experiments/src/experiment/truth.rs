@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 use std::fmt;
 
 use hssh_search::Experience;
-use hssh_topology::{Axioms, Derivation, Extension, Hypothesis, PlaceId, Removals};
+use hssh_topology::{Axioms, Derivation, Hypothesis, Outcome, PlaceId, Rules, Step};
 use serde::{Deserialize, Serialize};
 
 /// What became of the true map, from bad to good.
@@ -42,26 +42,21 @@ pub(crate) fn true_hypothesis(
     visits: &[usize],
     axioms: &Axioms,
 ) -> Option<Hypothesis> {
-    let Experience { catalog, start, observations } = experience;
-    let mut hypothesis = Hypothesis::root(catalog, *start);
+    let mut hypothesis = experience.root();
     let mut known: BTreeMap<usize, PlaceId> = BTreeMap::new();
     known.insert(*visits.first()?, hypothesis.position.place);
-    let (mut extensions, mut removals) = (Vec::new(), Removals::default());
-    for (&observation, visit) in observations.iter().zip(&visits[1..]) {
-        let step = hypothesis.step(observation, catalog, axioms, &mut extensions, &mut removals);
-        let arrival = match step {
-            Derivation::PredictedInconsistent => return None,
-            Derivation::PredictedConsistent(arrival) => arrival,
-            Derivation::Expand(exit) => {
-                let back_at = |&place| Extension::Closure(hypothesis.map.olp(place, observation.entry));
-                let extension = known.get(visit).map_or(Extension::NewPlace, back_at);
-                if !extensions.contains(&extension) {
-                    return None;
-                }
-                hypothesis.extend(exit, extension, observation, catalog)
-            }
+    let (rules, mut step) = (Rules { catalog: &experience.catalog, axioms }, Step::default());
+    for (&observation, visit) in experience.observations.iter().zip(&visits[1..]) {
+        hypothesis.step(observation, rules, &mut step);
+        let back_at = |&place| Derivation::Closure(hypothesis.map.olp(place, observation.entry));
+        let derivation = match step.outcome {
+            Outcome::Predicted => Derivation::Predicted,
+            _ => known.get(visit).map_or(Derivation::NewPlace, back_at),
         };
-        hypothesis.arrive(arrival, observation.entry);
+        if !step.derivations.contains(&derivation) {
+            return None;
+        }
+        let _ = hypothesis.follow(observation, derivation, rules.catalog);
         known.entry(*visit).or_insert(hypothesis.position.place);
     }
     Some(hypothesis)

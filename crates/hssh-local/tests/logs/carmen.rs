@@ -45,6 +45,7 @@ fn scans_and_raw_odometry_come_out_in_order() {
     assert_eq!(log.trajectory.len(), 3);
     assert_eq!((log.scans[0].moment, log.scans[1].moment), (1, 2));
     assert_eq!((log.scans[0].line, log.scans[1].line), (4, 6));
+    assert_eq!((log.scans[0].time, log.scans[1].time), (Some(0.2), Some(0.3)));
     assert_eq!((log.skipped["#"], log.skipped["RLASER"]), (1, 1));
     assert!(log.warnings.is_empty());
 }

@@ -15,6 +15,8 @@ use super::{Answer, Assumption};
 pub struct Listing {
     /// Also what the search made of each travel, and what that took.
     pub levels: bool,
+    /// Also which flags of the program show more.
+    pub flags: bool,
 }
 
 impl Answer {
@@ -25,8 +27,8 @@ impl Answer {
         if listing.levels {
             text += &self.levels();
         }
-        text += &self.conclusion();
-        text += &self.ranking();
+        text += &self.conclusion(listing);
+        text += &self.ranking(listing);
         text
     }
 
@@ -112,19 +114,21 @@ impl Answer {
     }
 
     /// The verdict, how probable the first map is, and what to do if there is none.
-    fn conclusion(&self) -> String {
+    fn conclusion(&self, listing: Listing) -> String {
         let mut text = format!("{}\n", self.verdict.sentence);
         if let Some([least, most]) = self.maps.first().and_then(|map| map.probability) {
             let _ =
                 writeln!(text, "The first one's probability is at least {least:.4} and at most {most:.4}.");
         }
-        if let (VerdictKind::NoMap, Some(travel)) = (self.verdict.kind, self.verdict.lost_at_travel) {
+        if let (VerdictKind::NoMap, Some(travel), true) =
+            (self.verdict.kind, self.verdict.lost_at_travel, listing.flags)
+        {
             let _ = writeln!(text, "--travels {travel} maps what was before.");
         }
         text
     }
 
-    fn ranking(&self) -> String {
+    fn ranking(&self, listing: Listing) -> String {
         if self.maps.is_empty() {
             return String::new();
         }
@@ -139,7 +143,8 @@ impl Answer {
         }
         let unlisted = self.search.found.maps.saturating_sub(self.maps.len() as u64);
         if unlisted > 0 {
-            let _ = writeln!(text, "  … and {unlisted} more (--all lists them)");
+            let how = if listing.flags { " (--all lists them)" } else { "" };
+            let _ = writeln!(text, "  … and {unlisted} more{how}");
         }
         let ties = self.maps.iter().skip(1).filter(|map| map.tied && is_posterior);
         for (rank, difference) in ties.filter_map(|map| Some((map.rank, map.difference.as_ref()?))) {

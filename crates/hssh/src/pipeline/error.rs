@@ -9,9 +9,22 @@ use crate::answer::DisagreementError;
 /// Why there is no answer.
 #[derive(Debug, thiserror::Error)]
 pub enum PipelineError {
-    /// Options that contradict one another, with what to do instead.
-    #[error("{0}")]
-    Options(String),
+    /// A number among the options that makes no sense.
+    #[error("the option {name} is {number}: write a number that is {what}")]
+    Number {
+        /// The option.
+        name: &'static str,
+        /// What it is.
+        number: f64,
+        /// What it must be.
+        what: &'static str,
+    },
+    /// A search that finds all maps was asked for closed ones only.
+    #[error("only closed maps are asked for, but this search finds all maps, closed or not")]
+    ClosedOfAll,
+    /// The genus was to count in a search that does not go by preference.
+    #[error("the genus belongs to the order of preference, which the posterior does not ask")]
+    GenusOfPosterior,
     /// The area of the prior.
     #[error(transparent)]
     Area(#[from] PriorError),

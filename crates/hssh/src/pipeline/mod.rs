@@ -121,7 +121,6 @@ fn useful_threads(asked: usize, warnings: &mut Vec<AnswerWarning>) -> usize {
 impl MappingOptions {
     /// The method for an exploration: what was chosen, or what its measurements allow.
     fn method_for(&self, exploration: &Exploration) -> Result<SearchMethod, PipelineError> {
-        let refused = |why: &str| Err(PipelineError::Options(why.to_owned()));
         let is_measured = || exploration.travels().iter().all(|travel| travel.odometry.is_some());
         let usual = if exploration.travels().is_empty() || self.search.genus.is_some() || !is_measured() {
             SearchMethod::BreadthFirst
@@ -130,18 +129,17 @@ impl MappingOptions {
         };
         match self.search.method.unwrap_or(usual) {
             SearchMethod::BreadthFirst | SearchMethod::Count | SearchMethod::PosteriorBreadthFirst
-                if self.search.closed => refused(
-                "--closed goes with --search posterior, best-first and proof: the others find all maps, closed or not",
-            ),
+                if self.search.closed =>
+            {
+                Err(PipelineError::ClosedOfAll)
+            }
             SearchMethod::Posterior
             | SearchMethod::PosteriorBestFirst
             | SearchMethod::PosteriorBreadthFirst
             | SearchMethod::PosteriorProof
                 if self.search.genus.is_some() =>
             {
-                refused(
-                    "--genus belongs to the order of preference, which the posterior does not ask: use --planar or --max-genus",
-                )
+                Err(PipelineError::GenusOfPosterior)
             }
             method => Ok(method),
         }

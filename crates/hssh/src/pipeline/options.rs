@@ -216,6 +216,14 @@ impl From<SpannedError> for OptionsError {
     }
 }
 
+/// What a finite number among the options may be.
+enum MayBe {
+    /// Zero, or anything above.
+    Zero,
+    /// Anything above zero.
+    Positive,
+}
+
 impl MappingOptions {
     /// The defaults as a file, with what each means.
     pub const DEFAULTS: &str = include_str!("defaults.ron");
@@ -235,25 +243,23 @@ impl MappingOptions {
     /// With the first such number.
     pub fn check(&self) -> Result<(), PipelineError> {
         let MappingOptions { places, posterior, limits, .. } = self;
-        let least_zero = [
-            ("places.narrowest", places.narrowest),
-            ("places.shallowest", places.shallowest),
-            ("places.clutter", places.clutter),
-            ("posterior.likeness", Some(posterior.likeness)),
-            ("limits.seconds", limits.seconds),
+        let numbers = [
+            ("places.narrowest", places.narrowest, MayBe::Zero),
+            ("places.shallowest", places.shallowest, MayBe::Zero),
+            ("places.clutter", places.clutter, MayBe::Zero),
+            ("posterior.likeness", Some(posterior.likeness), MayBe::Zero),
+            ("posterior.area", posterior.area, MayBe::Positive),
+            ("posterior.rest", Some(posterior.rest), MayBe::Positive),
+            ("limits.seconds", limits.seconds, MayBe::Zero),
         ];
-        let more_than_zero = [("posterior.area", posterior.area), ("posterior.rest", Some(posterior.rest))];
-        let refused = |name: &str, number: f64, what: &str| {
-            Err(PipelineError::Options(format!("the option {name} is {number}: write a {what} number")))
-        };
-        for (name, number) in least_zero.into_iter().filter_map(|(name, number)| Some((name, number?))) {
-            if !(number.is_finite() && number >= 0.0) {
-                return refused(name, number, "finite and not negative");
-            }
-        }
-        for (name, number) in more_than_zero.into_iter().filter_map(|(name, number)| Some((name, number?))) {
-            if !(number.is_finite() && number > 0.0) {
-                return refused(name, number, "positive and finite");
+        for (name, number, may_be) in numbers {
+            let Some(number) = number else { continue };
+            let (is_right, what) = match may_be {
+                MayBe::Zero => (number >= 0.0, "finite and not negative"),
+                MayBe::Positive => (number > 0.0, "finite and positive"),
+            };
+            if !is_right || !number.is_finite() {
+                return Err(PipelineError::Number { name, number, what });
             }
         }
         Ok(())

@@ -27,7 +27,7 @@ pub(crate) fn run(arguments: &MapArguments) -> Result<Status, Failure> {
     let mapped = searched(&input, &options)?;
     print(&match arguments.json {
         true => mapped.answer.to_json(),
-        false => mapped.answer.to_text(Listing { levels: arguments.levels }),
+        false => mapped.answer.to_text(Listing { levels: arguments.levels, flags: true }),
     })?;
     if let Some(file) = &arguments.certificate {
         write_file(file, &mapped.certificate(&input).ok_or(Failure::NothingProved)?)?;
