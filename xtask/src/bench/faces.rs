@@ -183,7 +183,7 @@ mod tests {
     fn a_grid_has_a_face_for_every_cell_and_one_around_it() {
         let grid = Grid::new(5);
         let graph = EmbeddedGraph::from_links(grid.degrees(), grid.links()).unwrap();
-        graph.sanity_check();
+        graph.sanity_check().unwrap();
         assert_eq!((graph.face_count(), graph.genus(), grid.links().len()), (17, 0, 40));
         assert_eq!(grid.text().lines().nth(1), Some("1 5"));
     }
