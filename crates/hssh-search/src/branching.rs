@@ -1,8 +1,6 @@
 //! The branching factor with and without planarity, measured and predicted (equation (3.1)).
 
-use hssh_topology::{
-    Axioms, Derivation, Hypothesis, Observation, PendingGateway, Rules, StarCatalog, Step,
-};
+use hssh_topology::{Axioms, Derivation, Hypothesis, Observation, PendingGateway, Rules, StarCatalog, Step};
 use serde::Serialize;
 
 /// One expansion of a planar map, as equation (3.1) looks at it.

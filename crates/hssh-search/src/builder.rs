@@ -2,20 +2,14 @@
 
 use std::sync::Arc;
 
-use hssh_causal::Exploration;
 use hssh_metrics::SolveError;
-use hssh_topology::{Axioms, Preference, Star};
+use hssh_topology::{Axioms, Preference};
 
-use crate::context::Context;
-use crate::count::count;
-use crate::crew::{Crew, ThreadsError};
-use crate::experience::Experience;
-use crate::limits::{Limits, Monitor, Watch};
-use crate::mapper::Mapper;
-use crate::measured::MeasurementError;
+use crate::crew::ThreadsError;
+use crate::limits::{Limits, Monitor};
 use crate::order::{Goal, Order, Proving};
 use crate::posterior::{Appearance, ModelError, PosteriorModel};
-use crate::report::Report;
+use crate::visit::MeasurementError;
 
 /// What makes one map better than another.
 #[derive(Clone, Copy, PartialEq, Debug)]
@@ -56,7 +50,7 @@ pub enum MapperError {
     Threads(#[from] ThreadsError),
 }
 
-/// How a [`Mapper`] is to search. The default is breadth-first with the thesis's axioms and
+/// How a [`Mapper`](crate::Mapper) is to search. The default is breadth-first with the thesis's axioms and
 /// preference, on one thread, without limits.
 #[derive(Clone, Debug)]
 pub struct MapperBuilder {
@@ -153,63 +147,6 @@ impl MapperBuilder {
     #[must_use]
     pub fn monitor(self, monitor: Arc<Monitor>) -> Self {
         MapperBuilder { monitor, ..self }
-    }
-
-    /// A mapper that has seen its first star, and knows no bearings of its ends.
-    ///
-    /// # Errors
-    /// If the operating system gives no threads, or the model makes no sense.
-    pub fn start(self, star: &Star) -> Result<Mapper, MapperError> {
-        Mapper::new(self, Experience::new(star, &[]))
-    }
-
-    /// A mapper that has seen its first star, with the bearings of its ends where they were measured, rad.
-    ///
-    /// # Errors
-    /// If the operating system gives no threads, or the model makes no sense.
-    ///
-    /// # Panics
-    /// If there are bearings, but not one for each end.
-    pub fn start_with(self, star: &Star, bearings: &[Option<f64>]) -> Result<Mapper, MapperError> {
-        assert!(bearings.is_empty() || bearings.len() == star.ends().len(), "one bearing for each end");
-        Mapper::new(self, Experience::new(star, bearings))
-    }
-
-    /// A mapper that has been through a whole exploration, and has searched its tree.
-    ///
-    /// # Errors
-    /// If the operating system gives no threads, if the model makes no sense or asks for measurements that are not there, or
-    /// if there is no map and some layout cannot be computed.
-    pub fn explain(self, exploration: &Exploration) -> Result<Mapper, MapperError> {
-        let mut mapper = Mapper::new(self, Experience::from(exploration))?;
-        mapper.advance();
-        match mapper.unsolvable() {
-            Some((travels, problem)) if mapper.is_empty() => {
-                Err(MapperError::Unsolvable { travels, problem: problem.clone() })
-            }
-            _ => Ok(mapper),
-        }
-    }
-
-    /// Counts all hypotheses about an exploration and keeps none, in memory that does not grow with their
-    /// number. Neither order nor goal matters, and maps are ranked by preference.
-    ///
-    /// A limit or an interruption ends the count early; the report then covers the branches of the
-    /// tree that were counted to their end, and is the same for any number of threads if it was the
-    /// limit on nodes.
-    ///
-    /// # Errors
-    /// If the operating system gives no threads.
-    pub fn count(self, exploration: &Exploration) -> Result<Report, ThreadsError> {
-        let experience = &Experience::from(exploration);
-        let crew = Crew::new(self.threads)?;
-        let watch = Watch::start(self.limits, &self.monitor);
-        let preference = match self.objective {
-            Objective::Preference(preference) => preference,
-            Objective::Posterior(_) => Preference::default(),
-        };
-        let context = Context { experience, axioms: &self.axioms, crew: &crew, watch: &watch };
-        Ok(count(context, preference))
     }
 
     /// What is sought, and in which order, in a few words.

@@ -197,7 +197,7 @@ fn plain(score: Score) -> String {
     match score {
         Score::Measure(Measure { undetermined_boundaries, paths, places, genus }) => {
             format!("{undetermined_boundaries} {paths} {places} {genus}")
-        },
+        }
         Score::Nats(nats) => format!("{nats:?}"),
     }
 }

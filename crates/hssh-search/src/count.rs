@@ -3,13 +3,18 @@
 use std::ops::ControlFlow;
 use std::time::Instant;
 
+use hssh_causal::Exploration;
 use hssh_topology::{Hypothesis, Observation, Preference, Removals};
 
+use crate::builder::{MapperBuilder, Objective};
 use crate::context::Context;
+use crate::crew::{Crew, ThreadsError};
 use crate::depth_first::{Visitor, depth_first};
+use crate::experience::Experience;
+use crate::fringe::Fringe;
 use crate::limits::{StopReason, Watch};
-use crate::order::Fringe;
-use crate::report::{FinalCounts, LevelCounts, Report, Tally};
+use crate::report::{FinalCounts, LevelCounts, Report};
+use crate::tally::Tally;
 use crate::tree::{NodeId, Tree};
 
 /// The tree is cut below the first level with that many nodes, and each branch counted by itself.
@@ -21,8 +26,31 @@ const BRANCHES_UNDER_LIMIT: usize = 64;
 /// Nodes between two looks at the limits.
 const LOOK: u64 = 1 << 14;
 
+impl MapperBuilder {
+    /// Counts all hypotheses about an exploration and keeps none, in memory that does not grow with their
+    /// number. Neither order nor goal matters, and maps are ranked by preference.
+    ///
+    /// A limit or an interruption ends the count early; the report then covers the branches of the
+    /// tree that were counted to their end, and is the same for any number of threads if it was the
+    /// limit on nodes.
+    ///
+    /// # Errors
+    /// If the operating system gives no threads.
+    pub fn count(self, exploration: &Exploration) -> Result<Report, ThreadsError> {
+        let experience = &Experience::from(exploration);
+        let crew = Crew::new(self.threads)?;
+        let watch = Watch::start(self.limits, &self.monitor);
+        let preference = match self.objective {
+            Objective::Preference(preference) => preference,
+            Objective::Posterior(_) => Preference::default(),
+        };
+        let context = Context { experience, axioms: &self.axioms, crew: &crew, watch: &watch };
+        Ok(count(context, preference))
+    }
+}
+
 /// Goes through all hypotheses of an experience and counts them, keeping none.
-pub(crate) fn count(context: Context<'_>, preference: Preference) -> Report {
+fn count(context: Context<'_>, preference: Preference) -> Report {
     let started = Instant::now();
     let Context { experience, axioms, crew, watch } = context;
     let travels = context.travels();

@@ -5,13 +5,25 @@ use hssh_metrics::SolveError;
 use crate::branch::Branch;
 use crate::context::Context;
 use crate::cursor::Cursor;
+use crate::fringe::Fringe;
 use crate::frontier::Frontier;
-use crate::leaf::{Appraise, Grown, Leaf};
+use crate::leaf::{Appraise, Growth, Leaf, matters};
 use crate::limits::StopReason;
-use crate::measured::MeasurementError;
-use crate::order::{Fringe, Goal, Order, Proving, Sweep, matters};
-use crate::report::Tally;
+use crate::order::{Goal, Order, Proving};
+use crate::tally::Tally;
 use crate::tree::Tree;
+use crate::visit::MeasurementError;
+
+/// How far the sweeps are.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct Sweep {
+    /// Levels before this one have their turn in the next cycle only.
+    pub(crate) from: usize,
+    /// Of the reach, beyond the worst of the best maps: nats.
+    pub(crate) slack: f64,
+    /// Expansions when the best map became the best.
+    pub(crate) best_since: u64,
+}
 
 /// A map that explains everything.
 #[derive(Clone, Debug)]
@@ -131,16 +143,6 @@ impl<A: Appraise> Engine<A> {
         Ok(())
     }
 
-    /// Searches on until everything observed is explained as well as was asked for, or a limit stops it.
-    pub(crate) fn advance(&mut self, context: Context<'_>) -> StopReason {
-        match self.order {
-            Order::BreadthFirst => self.breadth_first(context),
-            Order::BestFirst => self.best_first(context),
-            Order::Cyclic => self.cyclic(context),
-            Order::Proof => self.least_bound_first(context),
-        }
-    }
-
     /// How many travels the search knows of.
     pub(crate) fn travels(&self) -> usize {
         self.travels
@@ -199,12 +201,7 @@ impl<A: Appraise> Engine<A> {
     }
 
     /// Puts the successors of an expanded hypothesis into the tree; they are its leaves.
-    pub(crate) fn plant(
-        &mut self,
-        leaf: &Leaf<A>,
-        grown: Result<Grown<A>, SolveError>,
-        context: Context<'_>,
-    ) -> Vec<Leaf<A>> {
+    pub(crate) fn plant(&mut self, leaf: &Leaf<A>, grown: Growth<A>, context: Context<'_>) -> Vec<Leaf<A>> {
         let grown = match grown {
             Ok(grown) => grown,
             Err(problem) => {
@@ -216,17 +213,13 @@ impl<A: Appraise> Engine<A> {
         context.watch.add_nodes(grown.successors.len() as u64);
         context.watch.explained(leaf.depth() + usize::from(!grown.successors.is_empty()));
         let tree = &mut self.tree;
-        let planted = grown.successors.into_iter().map(|(child, leaf)| Leaf { node: tree.push(child), ..leaf });
+        let planted =
+            grown.successors.into_iter().map(|(child, leaf)| Leaf { node: tree.push(child), ..leaf });
         planted.collect()
     }
 
     /// Puts the successors of an expanded hypothesis into the tree and where they belong.
-    pub(crate) fn enter(
-        &mut self,
-        leaf: &Leaf<A>,
-        grown: Result<Grown<A>, SolveError>,
-        context: Context<'_>,
-    ) {
+    pub(crate) fn enter(&mut self, leaf: &Leaf<A>, grown: Growth<A>, context: Context<'_>) {
         for next in self.plant(leaf, grown, context) {
             let is_whole = next.depth() == self.travels;
             if is_whole && self.order == Order::Proof && self.appraiser.is_settled(&next) {
@@ -262,7 +255,8 @@ impl<A: Appraise> Engine<A> {
         let found = Found { leaf, branch };
         let order = |found: &Found<A>| (found.leaf.key, found.branch.clone());
         let place = self.found.partition_point(|other| {
-            other.leaf.key < found.leaf.key || (other.leaf.key == found.leaf.key && order(other) < order(&found))
+            other.leaf.key < found.leaf.key
+                || (other.leaf.key == found.leaf.key && order(other) < order(&found))
         });
         self.found.insert(place, found);
         if place == 0 {

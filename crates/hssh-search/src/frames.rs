@@ -36,8 +36,9 @@ impl Frames {
         }
         for seen in 0..stars.len() {
             let known = self.turns.get(seen).map_or(0, Vec::len);
-            let missing: Vec<_> =
-                (known..stars.len()).map(|first| turns(&self.bearings[seen], &self.bearings[first])).collect();
+            let missing: Vec<_> = (known..stars.len())
+                .map(|first| turns(&self.bearings[seen], &self.bearings[first]))
+                .collect();
             match self.turns.get_mut(seen) {
                 Some(row) => row.extend(missing),
                 None => self.turns.push(missing),

@@ -9,9 +9,9 @@ use hssh_topology::{Outcome, Position, Removals};
 use crate::context::Context;
 use crate::cursor::Cursor;
 use crate::experience::Experience;
-use crate::measured::MeasurementError;
 use crate::report::{Probable, Score};
 use crate::tree::{Child, NodeId, Tree};
+use crate::visit::MeasurementError;
 
 /// An objective at work: it says what makes one map better than another, and how good the maps can be at best that come of
 /// an open hypothesis.
@@ -30,7 +30,14 @@ pub(crate) trait Appraise: Debug + Sync + Sized {
     fn observe(&mut self, experience: &Experience, tree: &Tree) -> Result<(), MeasurementError>;
 
     /// Appraises a leaf anew that was made when there were only `before` travels to explain.
-    fn renew(&self, leaf: &mut Leaf<Self>, before: usize, cursor: &mut Cursor, tree: &Tree, context: Context<'_>);
+    fn renew(
+        &self,
+        leaf: &mut Leaf<Self>,
+        before: usize,
+        cursor: &mut Cursor,
+        tree: &Tree,
+        context: Context<'_>,
+    );
 
     /// The leaf that every search begins with.
     fn root(&self, context: Context<'_>) -> Leaf<Self>;
@@ -39,13 +46,8 @@ pub(crate) trait Appraise: Debug + Sync + Sized {
     ///
     /// # Errors
     /// If a layout cannot be computed.
-    fn grow(
-        &self,
-        leaf: &Leaf<Self>,
-        cursor: &mut Cursor,
-        tree: &Tree,
-        context: Context<'_>,
-    ) -> Result<Grown<Self>, SolveError>;
+    fn grow(&self, leaf: &Leaf<Self>, cursor: &mut Cursor, tree: &Tree, context: Context<'_>)
+    -> Growth<Self>;
 
     /// Whether the key of a leaf is final, or only estimated.
     fn is_settled(&self, leaf: &Leaf<Self>) -> bool;
@@ -164,4 +166,12 @@ pub(crate) struct Grown<A: Appraise> {
     pub(crate) outcome: Outcome,
     pub(crate) removals: Removals,
     pub(crate) successors: Vec<(Child, Leaf<A>)>,
+}
+
+/// What came of an attempt to grow a leaf: no successors if a layout cannot be computed.
+pub(crate) type Growth<A> = Result<Grown<A>, SolveError>;
+
+/// Whether something that matters may come of a leaf.
+pub(crate) fn matters<A: Appraise>(appraiser: &A, leaf: &Leaf<A>, reach: Option<A::Key>) -> bool {
+    reach.is_none_or(|reach| appraiser.bound(leaf).is_none_or(|bound| bound <= reach))
 }

@@ -22,6 +22,7 @@ mod distinction;
 mod engine;
 mod experience;
 mod frames;
+mod fringe;
 mod frontier;
 mod leaf;
 mod limits;
@@ -33,7 +34,10 @@ mod posterior;
 mod preference;
 mod report;
 mod step;
+mod strategy;
+mod tally;
 mod tree;
+mod visit;
 
 pub use branch::Branch;
 pub use branching::{BranchingSample, branching};
@@ -42,10 +46,9 @@ pub use crew::{ThreadsError, useful_threads};
 pub use cursor::Cursor;
 pub use depth_first::{Visitor, depth_first};
 pub use distinction::{Distinction, Parting, Prediction, Test, distinguish};
-pub use experience::{Experience, Visit, VisitError};
+pub use experience::Experience;
 pub use limits::{Limits, Monitor, StopReason};
 pub use mapper::Mapper;
-pub use measured::MeasurementError;
 pub use order::{Goal, Order, Proving};
 pub use placement::{Placement, PlacementError, place_by_odometry};
 pub use posterior::{
@@ -53,3 +56,4 @@ pub use posterior::{
 };
 pub use report::{FinalCounts, LevelCounts, Levels, Probable, Proof, RankedMap, Report, Score};
 pub use tree::{NodeId, Tree};
+pub use visit::{MeasurementError, Visit, VisitError};

@@ -2,8 +2,9 @@
 
 use std::time::Instant;
 
+use hssh_causal::Exploration;
 use hssh_metrics::{PoseGraph, SolveError};
-use hssh_topology::{Hypothesis, Position, Preference};
+use hssh_topology::{Hypothesis, Position, Preference, Star};
 
 use crate::branch::Branch;
 use crate::builder::{MapperBuilder, MapperError, Objective};
@@ -13,20 +14,21 @@ use crate::crew::Crew;
 use crate::cursor::Cursor;
 use crate::distinction::{Distinction, distinguish};
 use crate::engine::Engine;
-use crate::experience::{Experience, Visit, VisitError};
+use crate::experience::Experience;
 use crate::leaf::Appraise;
 use crate::limits::{Limits, StopReason, Watch};
-use crate::measured::{MeasuredTravel, MeasurementError};
+use crate::measured::MeasuredTravel;
 use crate::order::Order;
 use crate::posterior::{ByPosterior, LINEAR_TRUST, Metrical, PosteriorModel};
 use crate::preference::ByPreference;
 use crate::report::{FinalCounts, Proof, RankedMap, Report};
 use crate::tree::{NodeId, Tree};
+use crate::visit::{MeasurementError, Visit, VisitError};
 
 /// A search for either objective.
 #[derive(Debug)]
 enum Search {
-    Preference(Engine<ByPreference>),
+    Preference(Box<Engine<ByPreference>>),
     Posterior(Box<Engine<ByPosterior>>),
 }
 
@@ -38,6 +40,44 @@ macro_rules! with_engine {
             Search::Posterior($engine) => $work,
         }
     };
+}
+
+impl MapperBuilder {
+    /// A mapper that has seen its first star, and knows no bearings of its ends.
+    ///
+    /// # Errors
+    /// If the operating system gives no threads, or the model makes no sense.
+    pub fn start(self, star: &Star) -> Result<Mapper, MapperError> {
+        Mapper::new(self, Experience::new(star, &[]))
+    }
+
+    /// A mapper that has seen its first star, with the bearings of its ends where they were measured, rad.
+    ///
+    /// # Errors
+    /// If the operating system gives no threads, or the model makes no sense.
+    ///
+    /// # Panics
+    /// If there are bearings, but not one for each end.
+    pub fn start_with(self, star: &Star, bearings: &[Option<f64>]) -> Result<Mapper, MapperError> {
+        assert!(bearings.is_empty() || bearings.len() == star.ends().len(), "one bearing for each end");
+        Mapper::new(self, Experience::new(star, bearings))
+    }
+
+    /// A mapper that has been through a whole exploration, and has searched its tree.
+    ///
+    /// # Errors
+    /// If the operating system gives no threads, if the model makes no sense or asks for measurements that are not there, or
+    /// if there is no map and some layout cannot be computed.
+    pub fn explain(self, exploration: &Exploration) -> Result<Mapper, MapperError> {
+        let mut mapper = Mapper::new(self, Experience::from(exploration))?;
+        mapper.advance();
+        match mapper.unsolvable() {
+            Some((travels, problem)) if mapper.is_empty() => {
+                Err(MapperError::Unsolvable { travels, problem: *problem })
+            }
+            _ => Ok(mapper),
+        }
+    }
 }
 
 /// The topological mapper: it keeps the tree of maps that explain what it was told.
@@ -107,7 +147,7 @@ impl Mapper {
         let search = match options.objective {
             Objective::Preference(preference) => {
                 let appraiser = ByPreference { preference, order };
-                Search::Preference(Engine::new(appraiser, order, goal, proving, context)?)
+                Search::Preference(Box::new(Engine::new(appraiser, order, goal, proving, context)?))
             }
             Objective::Posterior(model) => {
                 let appraiser = ByPosterior::new(model, options.appearance.clone(), order);
@@ -256,7 +296,8 @@ impl Mapper {
                 }
                 finals.best = maps.first().map(|map| map.measure);
                 let tie = engine.found.first().map(|best| engine.appraiser.reach(best.leaf.key, 0.0));
-                finals.optimal = engine.found.iter().filter(|found| Some(found.leaf.key) <= tie).count() as u64;
+                finals.optimal =
+                    engine.found.iter().filter(|found| Some(found.leaf.key) <= tie).count() as u64;
                 maps.truncate(most);
                 (self.report_on(engine, finals), maps)
             }
@@ -302,7 +343,7 @@ impl Mapper {
     /// What the proof rests on, as text that can be checked by itself: the branches left open with their bounds, the maps found, the
     /// parameters. `None` if the search has no bound, or if nothing is proved.
     #[must_use]
-    pub fn certificate(&self, exploration: &hssh_causal::Exploration) -> Option<String> {
+    pub fn certificate(&self, exploration: &Exploration) -> Option<String> {
         if !self.report().is_optimal {
             return None;
         }

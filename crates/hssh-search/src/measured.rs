@@ -7,6 +7,7 @@ use nalgebra::{Matrix3, vector};
 
 use crate::experience::Experience;
 use crate::frames::{Frames, Trail};
+use crate::visit::MeasurementError;
 
 /// One measured travel: the arrival frame in the departure frame, as the robot saw the two.
 #[derive(Clone, Copy, Debug)]
@@ -44,25 +45,6 @@ impl MeasuredTravel {
 pub(crate) struct Measured {
     pub(crate) travels: Vec<MeasuredTravel>,
     pub(crate) frames: Frames,
-}
-
-/// A travel that cannot be laid out.
-#[derive(Clone, PartialEq, Debug, thiserror::Error)]
-pub enum MeasurementError {
-    /// It has no odometry.
-    #[error("travel {travel} has no odometry; the posterior needs it for every travel")]
-    Missing {
-        /// The travel, counted from 1.
-        travel: usize,
-    },
-    /// A covariance is too close to singular.
-    #[error("the covariance of travel {travel} cannot be used: {problem}")]
-    Covariance {
-        /// The travel, counted from 1.
-        travel: usize,
-        /// Why not.
-        problem: UncertaintyError,
-    },
 }
 
 /// A travel in the frames of the places that a hypothesis takes it to connect.

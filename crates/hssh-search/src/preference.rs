@@ -9,12 +9,12 @@ use hssh_topology::{Measure, Preference, Rank, Step, TopologicalMap};
 use crate::context::Context;
 use crate::cursor::Cursor;
 use crate::experience::Experience;
-use crate::leaf::{Appraise, Grown, Leaf};
-use crate::measured::MeasurementError;
+use crate::leaf::{Appraise, Grown, Growth, Leaf};
 use crate::order::Order;
 use crate::report::Score;
 use crate::step::{Look, successors};
 use crate::tree::{NodeId, Tree};
+use crate::visit::MeasurementError;
 
 /// Appraises by preference.
 #[derive(Clone, Copy, Debug)]
@@ -28,8 +28,7 @@ impl ByPreference {
     /// The key of a hypothesis with that map, and so many travels left to explain.
     fn key(self, map: &TopologicalMap, travels_left: usize) -> Rank {
         let is_bound = self.order != Order::BestFirst && travels_left > 0;
-        let measure =
-            if is_bound { Measure::bound(map, travels_left as u32) } else { Measure::of(map) };
+        let measure = if is_bound { Measure::bound(map, travels_left as u32) } else { Measure::of(map) };
         self.preference.rank(measure)
     }
 
@@ -83,7 +82,7 @@ impl Appraise for ByPreference {
         cursor: &mut Cursor,
         tree: &Tree,
         context: Context<'_>,
-    ) -> Result<Grown<Self>, SolveError> {
+    ) -> Growth<Self> {
         let (mut grown, mut step) = (Vec::new(), Step::default());
         let outcome =
             successors(cursor, leaf.node, tree, context, &mut step, Look::Inside, |child, hypothesis| {

@@ -80,7 +80,9 @@ impl Grid {
         for travel in route.windows(2) {
             let step = (travel[1].0 - travel[0].0, travel[1].1 - travel[0].1);
             let exit = STEPS.iter().position(|&other| other == step).unwrap() as u32;
-            mapper.observe(Visit::new(Olp::new(exit), Olp::new((exit + 2) % 4), &self.star(travel[1]))).unwrap();
+            mapper
+                .observe(Visit::new(Olp::new(exit), Olp::new((exit + 2) % 4), &self.star(travel[1])))
+                .unwrap();
         }
         mapper.advance();
     }

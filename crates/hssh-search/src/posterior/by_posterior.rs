@@ -10,8 +10,8 @@ use crate::context::Context;
 use crate::cursor::Cursor;
 use crate::experience::Experience;
 use crate::frames::Trail;
-use crate::leaf::{Appraise, Grown, Leaf};
-use crate::measured::{Measured, MeasurementError};
+use crate::leaf::{Appraise, Grown, Growth, Leaf};
+use crate::measured::Measured;
 use crate::order::Order;
 use crate::posterior::appearance::Appearance;
 use crate::posterior::cost::Cost;
@@ -21,6 +21,7 @@ use crate::posterior::tariff::Tariff;
 use crate::report::{Probable, Score};
 use crate::step::{Look, successors};
 use crate::tree::{Child, NodeId, Tree};
+use crate::visit::MeasurementError;
 
 /// A rise of χ² that does not matter.
 const NEGLIGIBLE: f64 = 0.1;
@@ -232,7 +233,7 @@ impl Appraise for ByPosterior {
         cursor: &mut Cursor,
         tree: &Tree,
         context: Context<'_>,
-    ) -> Result<Grown<Self>, SolveError> {
+    ) -> Growth<Self> {
         let travel = leaf.depth();
         let visits = cursor.visits(leaf.node, tree, context.experience);
         let first_visits = first_visits(&visits);

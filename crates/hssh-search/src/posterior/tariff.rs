@@ -98,8 +98,7 @@ impl Tariff {
 
     fn count_branches(&mut self, experience: &Experience) {
         let Experience { catalog, observations, .. } = experience;
-        for travel in self.branching.len()..observations.len() {
-            let now: Observation = observations[travel];
+        for (travel, now) in observations.iter().enumerate().skip(self.branching.len()) {
             let known = experience.star_of(travel).index();
             self.seen.resize(self.seen.len().max(catalog.stars().len()), 0);
             self.seen[known] += 1;
@@ -192,9 +191,7 @@ fn log_density(prior: PlacePrior, corridor: Option<Corridor>, experience: &Exper
     let (departed, arrived) = (experience.bearings(experience.star_of(travel)), experience.bearings(star));
     let density = |measured: &Odometry| match (prior, corridor) {
         (PlacePrior::Uniform(prior), _) => prior.log_density(),
-        (_, Some(corridor)) => {
-            corridor.log_density(measured, departed[exit.index()], arrived[entry.index()])
-        }
+        (_, Some(corridor)) => corridor.log_density(measured, departed[exit.index()], arrived[entry.index()]),
         (_, None) => 0.0,
     };
     experience.odometry(travel).map_or(0.0, density)

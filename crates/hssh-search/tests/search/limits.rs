@@ -19,7 +19,13 @@ fn walk() -> Exploration {
 }
 
 fn search(strategy: Way, limits: Limits) -> Mapper {
-    Mapper::builder().axioms(planar()).order(strategy.0).goal(strategy.1).limits(limits).explain(&walk()).unwrap()
+    Mapper::builder()
+        .axioms(planar())
+        .order(strategy.0)
+        .goal(strategy.1)
+        .limits(limits)
+        .explain(&walk())
+        .unwrap()
 }
 
 fn counted(limits: Limits, monitor: &Arc<Monitor>) -> Report {
@@ -154,9 +160,11 @@ fn interrupt_once_under_way(monitor: &Arc<Monitor>) -> std::thread::JoinHandle<(
 
 #[test]
 fn interrupted_on_the_way() {
-    for strategy in
-        [(Order::BreadthFirst, Goal::AnyMap), (Order::BestFirst, Goal::ClosedMap), (Order::Proof, Goal::AnyMap)]
-    {
+    for strategy in [
+        (Order::BreadthFirst, Goal::AnyMap),
+        (Order::BestFirst, Goal::ClosedMap),
+        (Order::Proof, Goal::AnyMap),
+    ] {
         let monitor = Arc::new(Monitor::default());
         let visitor = interrupt_once_under_way(&monitor);
         let builder = watched(strategy, &monitor).axioms(Axioms::default());

@@ -121,7 +121,8 @@ fn begin(builder: MapperBuilder, exploration: &Exploration) -> Mapper {
 /// lead is estimated from these.
 #[test]
 fn the_posterior_on_the_way() {
-    for (seed, order) in [(1, Order::Cyclic), (2, Order::Cyclic), (3, Order::Proof), (4, Order::BreadthFirst)] {
+    for (seed, order) in [(1, Order::Cyclic), (2, Order::Cyclic), (3, Order::Proof), (4, Order::BreadthFirst)]
+    {
         let exploration = drifting_snake(3, seed);
         let search = || Mapper::builder().order(order).axioms(planar());
         let mut mapper = begin(search().posterior(PosteriorModel::ONLINE), &exploration);

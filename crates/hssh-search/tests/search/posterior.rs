@@ -164,12 +164,7 @@ fn the_evidence_is_that_of_the_whole_pose_graph() {
             + 0.5 * informations
             - 1.5 * travels * tau;
         let peaks = 0.5 * informations - 1.5 * travels * tau;
-        assert!(
-            (cost(&best) - (peaks - evidence)).abs() < tolerance,
-            "{} {}",
-            cost(&best),
-            peaks - evidence
-        );
+        assert!((cost(&best) - (peaks - evidence)).abs() < tolerance, "{} {}", cost(&best), peaks - evidence);
     }
 }
 
@@ -236,7 +231,9 @@ fn what_cannot_be_laid_out_is_left_out() {
         for order in [Order::BreadthFirst, Order::BestFirst, Order::Cyclic, Order::Proof] {
             let search = all_of(proving(PosteriorModel::THESIS)).axioms(planar()).order(order);
             match search.explain(&exploration) {
-                Ok(found) => assert!(!(found.report().proof.unwrap().unsolvable && found.report().is_optimal)),
+                Ok(found) => {
+                    assert!(!(found.report().proof.unwrap().unsolvable && found.report().is_optimal))
+                }
                 Err(problem) => assert!(problem.to_string().contains("out of all proportion"), "{problem}"),
             }
         }

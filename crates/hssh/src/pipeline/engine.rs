@@ -398,7 +398,10 @@ fn difference(
         Prediction::Unknown => None,
         Prediction::Arrival { place, star, entry } => {
             let star = catalog.star(star);
-            Some((EndReference { place: place.number(), end: star.name(entry).to_string() }, star.to_string()))
+            Some((
+                EndReference { place: place.number(), end: star.name(entry).to_string() },
+                star.to_string(),
+            ))
         }
     };
     let map = &hypotheses[0].map;

@@ -11,7 +11,7 @@ use crate::context::Context;
 use crate::cursor::Cursor;
 use crate::engine::Engine;
 use crate::frontier::Level;
-use crate::leaf::{Appraise, Grown, Leaf};
+use crate::leaf::{Appraise, Growth, Leaf, matters};
 use crate::limits::StopReason;
 use crate::tree::Tree;
 
@@ -24,21 +24,10 @@ const FRONTS: usize = 8;
 /// By how many nats the reach of a search grows as long as too much probability is left.
 const WIDENING: f64 = 1.0;
 
-/// How far the sweeps are.
-#[derive(Clone, Copy, Debug, Default)]
-pub(crate) struct Sweep {
-    /// Levels before this one have their turn in the next cycle only.
-    pub(crate) from: usize,
-    /// Of the reach, beyond the worst of the best maps: nats.
-    pub(crate) slack: f64,
-    /// Expansions when the best map became the best.
-    pub(crate) best_since: u64,
-}
-
 /// What came of one level's turn.
 struct Turn<A: Appraise> {
     /// The hypothesis that was expanded.
-    expanded: Option<(Leaf<A>, Result<Grown<A>, SolveError>)>,
+    expanded: Option<(Leaf<A>, Growth<A>)>,
     /// Those that turned out to be beyond reach.
     beyond: Vec<Leaf<A>>,
     /// Those that have no layout.
@@ -88,9 +77,9 @@ impl<A: Appraise> Engine<A> {
         let mut all = self.frontier.levels.iter_mut();
         let levels: Vec<_> = chosen.filter_map(|skip| all.nth(skip)).collect();
         let jobs: Vec<_> = levels.into_iter().zip(&mut self.cursors).collect();
-        let turns = context.crew.each(jobs, |(level, cursor)| {
-            take_turn(appraiser, level, reach, cursor, tree, context)
-        });
+        let turns = context
+            .crew
+            .each(jobs, |(level, cursor)| take_turn(appraiser, level, reach, cursor, tree, context));
         let mut any = false;
         for turn in turns {
             any |= self.end_turn(turn, context);
@@ -153,11 +142,6 @@ impl<A: Appraise> Engine<A> {
         let waited = self.tally.expanded - self.sweep.best_since;
         (waited >= patience).then_some(StopReason::Found)
     }
-}
-
-/// Whether something that matters may come of a leaf.
-pub(crate) fn matters<A: Appraise>(appraiser: &A, leaf: &Leaf<A>, reach: Option<A::Key>) -> bool {
-    reach.is_none_or(|reach| appraiser.bound(leaf).is_none_or(|bound| bound <= reach))
 }
 
 /// Expands the best hypothesis of a level.

@@ -1,12 +1,4 @@
-//! In which order hypotheses are expanded.
-
-mod best_first;
-mod breadth_first;
-mod cyclic;
-mod proof;
-
-pub(crate) use breadth_first::Fringe;
-pub(crate) use cyclic::{Sweep, matters};
+//! What a search is asked for: in which order it looks, which maps it accepts, how much it proves.
 
 use serde::{Deserialize, Serialize};
 

@@ -1,0 +1,24 @@
+//! The searches: one file for each order in which hypotheses are expanded.
+
+mod best_first;
+mod breadth_first;
+mod cyclic;
+mod proof;
+
+use crate::context::Context;
+use crate::engine::Engine;
+use crate::leaf::Appraise;
+use crate::limits::StopReason;
+use crate::order::Order;
+
+impl<A: Appraise> Engine<A> {
+    /// Searches on until everything observed is explained as well as was asked for, or a limit stops it.
+    pub(crate) fn advance(&mut self, context: Context<'_>) -> StopReason {
+        match self.order {
+            Order::BreadthFirst => self.breadth_first(context),
+            Order::BestFirst => self.best_first(context),
+            Order::Cyclic => self.cyclic(context),
+            Order::Proof => self.least_bound_first(context),
+        }
+    }
+}
