@@ -4,7 +4,6 @@ use hssh_causal::{Exploration, StarType};
 use hssh_topology::{Passability, Star};
 
 use crate::embedding::RotationSystem;
-use crate::path::Path;
 use crate::star;
 
 /// An oriented local path of a map: the place, in order of creation, and the position in its star.
@@ -66,20 +65,6 @@ impl<'a> Map<'a> {
     #[must_use]
     pub fn pending_gateways(&self) -> Vec<End> {
         self.ends().into_iter().filter(|&end| self.is_pending(end)).collect()
-    }
-
-    /// The paths: every local path lies on exactly one.
-    #[must_use]
-    pub fn paths(&self) -> Vec<Path> {
-        let mut paths: Vec<Path> = Vec::new();
-        for end in self.ends() {
-            let opposite = self.opposite(end);
-            let known = |path: &Path| path.headings.contains(&end) || path.headings.contains(&opposite);
-            if !paths.iter().any(known) {
-                paths.push(Path::through(self, end));
-            }
-        }
-        paths
     }
 
     /// How many pairs of existing places were linked: the *m* of equation (3.1).

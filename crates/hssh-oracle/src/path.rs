@@ -14,6 +14,22 @@ pub struct Path {
     pub circular: bool,
 }
 
+impl Map<'_> {
+    /// The paths: every local path lies on exactly one.
+    #[must_use]
+    pub fn paths(&self) -> Vec<Path> {
+        let mut paths: Vec<Path> = Vec::new();
+        for end in self.ends() {
+            let opposite = self.opposite(end);
+            let known = |path: &Path| path.headings.contains(&end) || path.headings.contains(&opposite);
+            if !paths.iter().any(known) {
+                paths.push(Path::through(self, end));
+            }
+        }
+        paths
+    }
+}
+
 impl Path {
     /// The path on which the local path of `heading` lies: back to its beginning, then forward.
     #[must_use]

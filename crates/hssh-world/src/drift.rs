@@ -5,7 +5,7 @@ use rand_chacha::ChaCha8Rng;
 use rand_distr::{Distribution, StandardNormal};
 
 use crate::geometry::{Point, wrap};
-use crate::noise::OdometryNoise;
+use crate::noise::{DriftError, OdometryNoise};
 
 /// How odometry errs. Errors are random walks, so their variances grow in proportion to the
 /// distance driven and to the angle turned; what the robot misjudges at the two places is added.
@@ -30,18 +30,6 @@ impl Default for DriftModel {
     fn default() -> Self {
         DriftModel { distance: 0.05, heading: 0.005, turn: 0.02, position_fix: 0.1, heading_fix: 0.02 }
     }
-}
-
-/// Why numbers are no model of noise.
-#[derive(Clone, PartialEq, Debug, thiserror::Error)]
-#[error("the noise model's `{field}` is {value}, it must be {range} and finite")]
-pub struct DriftError {
-    /// The field.
-    pub field: &'static str,
-    /// Its value.
-    pub value: f64,
-    /// What it may be.
-    pub range: &'static str,
 }
 
 /// One independent cause of error: how x, y and θ move per standard deviation of it.

@@ -40,11 +40,11 @@ mod streets;
 mod walk;
 mod world;
 
-pub use drift::{DriftError, DriftModel};
+pub use drift::DriftModel;
 pub use floor_plan::{FloorPlanError, floor_plan};
 pub use geometry::Point;
 pub use grid::{grid, snake, thesis_3x4};
-pub use noise::OdometryNoise;
+pub use noise::{DriftError, OdometryNoise};
 pub use offices::{OfficePlan, offices};
 pub use path::Path;
 pub use plans::{Floor, floors};

@@ -4,9 +4,8 @@ use hssh_causal::Odometry;
 use rand_chacha::ChaCha8Rng;
 use rand_distr::{Distribution, StandardNormal};
 
-use crate::drift::DriftError;
 use crate::geometry::{Point, wrap};
-use crate::noise::OdometryNoise;
+use crate::noise::{DriftError, OdometryNoise};
 
 /// Gaussian errors of a travel's polar coordinates, each independent of the others and of every other travel, those
 /// along the same corridor included.

@@ -2,7 +2,7 @@
 
 use hssh_topology::Olp;
 
-use crate::drift::DriftError;
+use crate::noise::DriftError;
 use crate::world::{Gateway, PlaceId, World};
 
 /// A route through a world.

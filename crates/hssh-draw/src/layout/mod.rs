@@ -3,6 +3,7 @@
 mod directions;
 mod relax;
 mod schematic;
+mod spring;
 mod unfold;
 
 pub use directions::Bearings;

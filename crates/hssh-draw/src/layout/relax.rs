@@ -5,6 +5,7 @@ use hssh_metrics::{Pose, wrap_angle};
 use hssh_topology::{PlaceId, TopologicalMap};
 use nalgebra::vector;
 
+use super::spring::{Spring, misfits, position};
 use super::unfold::unfolded;
 use crate::svg::{Point, toward};
 
@@ -21,14 +22,6 @@ const REPULSION: f64 = 1.5;
 /// Rounds of relaxation, for maps of up to [`LARGE`] places.
 const ROUNDS: usize = 600;
 const LARGE: usize = 200;
-
-/// A link as the relaxation sees it: two different places, and the directions of its ends in their frames.
-pub(super) struct Spring {
-    pub(super) from: usize,
-    pub(super) to: usize,
-    pub(super) leaving: f64,
-    pub(super) entering: f64,
-}
 
 /// The poses, changed if they are illegible: gradient descent on the misfit of all links plus the overlap
 /// of all that comes too close, from these poses and from the unfolded map. Of the two results the one
@@ -71,22 +64,6 @@ fn upright(poses: &[Pose]) -> Vec<Pose> {
     poses.iter().map(|&pose| poses[0].between(pose)).collect()
 }
 
-/// The sum of squares of how far places are from where their links want them.
-pub(super) fn misfit(poses: &[Pose], springs: &[Spring]) -> f64 {
-    let misfits = springs.iter().map(|spring| {
-        let (leaving, entering) = misfits(spring, poses);
-        leaving.norm_squared() + entering.norm_squared()
-    });
-    misfits.sum()
-}
-
-/// Where the far place is, seen from where the near end wants it; and the same the other way.
-fn misfits(spring: &Spring, poses: &[Pose]) -> (Point, Point) {
-    let (from, to) = (&poses[spring.from], &poses[spring.to]);
-    let gap = position(to) - position(from);
-    (gap - toward(from.theta + spring.leaving), -gap - toward(to.theta + spring.entering))
-}
-
 /// How many pairs of links cross when drawn straight.
 fn crossings(poses: &[Pose], springs: &[Spring]) -> usize {
     let turn = |a: usize, b: usize, c: usize| {
@@ -103,10 +80,6 @@ fn crossings(poses: &[Pose], springs: &[Spring]) -> usize {
         .enumerate()
         .flat_map(|(index, one)| springs[..index].iter().map(move |other| (one, other)));
     pairs.filter(|(one, other)| cross(one, other)).count()
-}
-
-fn position(pose: &Pose) -> Point {
-    pose.translation()
 }
 
 fn is_legible(poses: &[Pose], springs: &[Spring]) -> bool {

@@ -4,7 +4,7 @@
 use hssh_metrics::Pose;
 use nalgebra::Point2;
 
-use super::relax::{Spring, misfit};
+use super::spring::{Spring, misfit};
 use crate::svg::{Point, toward};
 
 /// Rounds of majorization.

@@ -1,13 +1,12 @@
 //! A search tree too large for little maps: nodes as dots, steps as lines of two kinds.
 
-use nalgebra::vector;
-
-use super::arrangement::Arrangement;
-use super::legend::{draw_levels, draw_notes, signs_note, text_size};
 use hssh_topology::Derivation;
 
-use super::{Fate, SearchTree, TreeNode};
-use crate::svg::{Canvas, Point, number};
+use super::SearchTree;
+use super::arrangement::Arrangement;
+use super::legend::{draw_levels, draw_notes, signs_note, text_size};
+use super::mark::draw_dot;
+use crate::svg::{Canvas, Point};
 
 /// The room for a leaf, in pixels: little if there are very many.
 fn column_width(leaves: usize) -> f64 {
@@ -43,26 +42,4 @@ pub(super) fn draw_dots(canvas: &mut Canvas, tree: &SearchTree, arrangement: &Ar
         draw_dot(canvas, at(index), (radius, ring), node);
     }
     draw_notes(canvas, &signs_note(tree));
-}
-
-/// A node: a solid dot, a cross if it was refuted, an open square if axioms left it no successor, with a
-/// ring of its own radius around it if it is preferred.
-pub(super) fn draw_dot(canvas: &mut Canvas, at: Point, (radius, ring): (f64, f64), node: &TreeNode) {
-    match node.fate {
-        Fate::Alive => canvas.circle(at, radius, r##"fill="#222222""##),
-        Fate::Refuted => {
-            for corner in [vector![radius, radius], vector![radius, -radius]] {
-                canvas.line(at - corner, at + corner, r##"stroke="#c0392b" stroke-width="1.6""##);
-            }
-        }
-        Fate::Removed => {
-            let corner = vector![radius, radius];
-            let attributes = r##"fill="#ffffff" stroke="#8a6d00" stroke-width="1.3""##;
-            canvas.rectangle(at - corner, at + corner, attributes);
-        }
-    }
-    if node.is_optimal {
-        let width = number((ring - radius) * 0.55);
-        canvas.circle(at, ring, &format!(r##"stroke="#117733" stroke-width="{width}""##));
-    }
 }

@@ -2,7 +2,7 @@
 
 use nalgebra::vector;
 
-use super::dots::draw_dot;
+use super::mark::draw_dot;
 use super::{Fate, SearchTree, TreeNode};
 use crate::svg::{Anchor, Canvas, text_width};
 

@@ -5,6 +5,7 @@ mod dot;
 mod dots;
 mod figure;
 mod legend;
+mod mark;
 mod thumbnail;
 
 pub use dot::tree_to_dot;

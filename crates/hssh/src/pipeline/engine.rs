@@ -8,12 +8,12 @@ use hssh_draw::SearchTree;
 use hssh_metrics::{PoseGraph, UniformPrior};
 use hssh_search::{
     Appearance, Corridor, Distinction, Goal, LINEAR_TRUST, LevelCounts, Limits, MapPrior, Mapper,
-    MapperBuilder, MapperError, Metrical, Order, PlacePrior, PlacementError, PosteriorModel, Prediction,
-    Proving, RankedMap, Report, Score, StopReason, ThreadsError, distinguish, place_by_odometry,
+    MapperBuilder, Metrical, Order, PlacePrior, PosteriorModel, Prediction, Proving, RankedMap, Report,
+    Score, StopReason, distinguish, place_by_odometry,
 };
 use hssh_topology::{GenusRank, Hypothesis, MapOlp, Measure, Position, Preference, StarCatalog};
 
-use super::error::PipelineError;
+use super::error::{PipelineError, SearchFailure};
 use super::options::{GenusOrder, MappingOptions, MetricalScore, PriorKind, SearchMethod};
 use crate::answer::{
     Assumption, CertificateSummary, CostItem, CostSheet, EndReference, FoundCounts, MapDifference,
@@ -25,20 +25,6 @@ pub use hssh_search::Monitor;
 
 /// How much more alike pairs of visits look than places at random.
 pub(super) type Likeness = Appearance;
-
-/// Why a search came to nothing.
-#[derive(Debug, thiserror::Error)]
-pub enum SearchFailure {
-    /// The operating system gave no threads.
-    #[error(transparent)]
-    Threads(#[from] ThreadsError),
-    /// Measurements that cannot be weighed, or are not there.
-    #[error("cannot weigh the maps: {0}")]
-    Mapper(#[from] MapperError),
-    /// A map that cannot be placed by its odometry.
-    #[error("cannot place the map by its odometry: {0}")]
-    Placement(#[from] PlacementError),
-}
 
 /// What to search.
 pub(super) struct Task<'a> {

@@ -2,8 +2,8 @@
 
 use hssh_local::{LatticeError, LogError, SurveyError};
 use hssh_metrics::PriorError;
+use hssh_search::{MapperError, PlacementError, ThreadsError};
 
-use super::engine::SearchFailure;
 use crate::answer::DisagreementError;
 
 /// Why there is no answer.
@@ -56,4 +56,18 @@ pub enum PipelineError {
         "the replay disagrees with the search: {0}\nhelp: this is a bug in hssh; please report it with the exploration"
     )]
     Disagreement(#[from] DisagreementError),
+}
+
+/// Why a search came to nothing.
+#[derive(Debug, thiserror::Error)]
+pub enum SearchFailure {
+    /// The operating system gave no threads.
+    #[error(transparent)]
+    Threads(#[from] ThreadsError),
+    /// Measurements that cannot be weighed, or are not there.
+    #[error("cannot weigh the maps: {0}")]
+    Mapper(#[from] MapperError),
+    /// A map that cannot be placed by its odometry.
+    #[error("cannot place the map by its odometry: {0}")]
+    Placement(#[from] PlacementError),
 }

@@ -7,8 +7,8 @@ mod input;
 mod options;
 mod places;
 
-pub use engine::{Monitor, SearchFailure};
-pub use error::PipelineError;
+pub use engine::Monitor;
+pub use error::{PipelineError, SearchFailure};
 pub use input::{Input, SurveyedLog, is_log};
 pub use options::{
     GenusOrder, MappingOptions, MetricalScore, OptionsError, PosteriorChoice, PriorKind, SearchChoice,
