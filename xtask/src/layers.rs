@@ -11,9 +11,10 @@ use crate::root;
 ///
 /// The layers follow the SSH: control and causal below topological, metrical beside it, search above.
 /// Dev-dependencies are free; `hssh-oracle` may be nothing else.
-const LAYERS: [(&str, &[&str]); 10] = [
+const LAYERS: [(&str, &[&str]); 11] = [
     ("hssh-topology", &[]),
     ("hssh-causal", &["hssh-topology"]),
+    ("hssh-verify", &["hssh-causal", "hssh-topology"]),
     ("hssh-metrics", &[]),
     ("hssh-local", &["hssh-causal", "hssh-topology", "hssh-metrics"]),
     ("hssh-search", &["hssh-causal", "hssh-topology", "hssh-metrics"]),
