@@ -14,6 +14,7 @@ use crate::root;
 const LAYERS: [(&str, &[&str]); 11] = [
     ("hssh-topology", &[]),
     ("hssh-causal", &["hssh-topology"]),
+    ("hssh-verify", &["hssh-causal", "hssh-topology"]),
     ("hssh-metrics", &[]),
     ("hssh-local", &["hssh-causal", "hssh-topology", "hssh-metrics"]),
     ("hssh-search", &["hssh-causal", "hssh-topology", "hssh-metrics"]),

@@ -1,0 +1,137 @@
+//! Complete certificates of small explorations are accepted, and count what was published.
+
+mod naive;
+mod support;
+
+use hssh_topology::Axioms;
+use hssh_verify::{Best, report};
+use hssh_world::{DriftModel, grid, snake};
+use naive::costs::Terms;
+use naive::{Objective, Question};
+use support::{accepts, fixture};
+
+fn snake_3x3(noise: bool) -> hssh_causal::Exploration {
+    let world = grid(3, 3, 8.0).unwrap();
+    let route = world.route_through(&snake(3, 3)).unwrap();
+    if noise {
+        return world.explore_with_odometry(&route, &DriftModel::default(), 7).unwrap();
+    }
+    world.explore(&route).unwrap()
+}
+
+/// Figure 3.3 of the thesis.
+#[test]
+fn the_3x3_snake_has_the_published_tree() {
+    let exploration = snake_3x3(false);
+    let published: [(Option<u32>, [u64; 17], u64); 2] = [
+        (None, [1, 1, 1, 1, 1, 2, 2, 4, 4, 7, 7, 11, 21, 45, 56, 65, 88], 317),
+        (Some(0), [1, 1, 1, 1, 1, 2, 2, 4, 4, 7, 7, 11, 18, 32, 41, 45, 62], 240),
+    ];
+    for (max_genus, levels, nodes) in published {
+        for prune in [false, true] {
+            let mut question = Question::new(&exploration, Objective::Preference("last"));
+            question.axioms.max_genus = max_genus;
+            question.prune = prune;
+            let verdict = accepts(&question.prove().text, &exploration);
+            assert_eq!(verdict.best, Best::Rank([0, 6, 9, 0]));
+            if prune {
+                assert!(verdict.open > 10 && verdict.expanded + verdict.open < nodes);
+                continue;
+            }
+            assert_eq!(verdict.levels, levels);
+            assert_eq!(verdict.expanded + verdict.maps, nodes);
+            assert_eq!(verdict.maps, levels[16]);
+            assert_eq!(verdict.open, 0);
+        }
+    }
+}
+
+#[test]
+fn all_axioms_and_orders_agree_with_the_naive_prover() {
+    let sources = [fixture("figure-2-4.ron"), fixture("aces.ron").prefix(10), snake_3x3(false)];
+    let axioms = [
+        Axioms::default(),
+        Axioms { perpendicular: true, ..Axioms::default() },
+        Axioms { consistent_boundaries: true, ..Axioms::default() },
+        Axioms { max_places: Some(8), max_genus: Some(1), ..Axioms::default() },
+        Axioms { no_self_intersection: false, max_genus: Some(0), max_places: Some(7), ..Axioms::default() },
+        Axioms { no_circular_path: false, max_genus: Some(0), ..Axioms::default() },
+    ];
+    for exploration in &sources {
+        for axioms in axioms {
+            for (index, genus) in ["ignored", "first", "last"].into_iter().enumerate() {
+                let mut question = Question::new(exploration, Objective::Preference(genus));
+                question.axioms = axioms;
+                question.prune = index > 0;
+                question.closed = index > 1;
+                let proof = question.prove();
+                let verdict = accepts(&proof.text, exploration);
+                assert_eq!((verdict.maps, verdict.levels), (proof.maps, proof.levels));
+                assert_eq!(verdict.best == Best::None, proof.best.is_none());
+            }
+        }
+    }
+}
+
+#[test]
+fn posterior_certificates_agree_with_the_naive_prover() {
+    let corridor = "evidence corridor 8.0 0.5 0.15 0.1";
+    let cases = [
+        ("ignored", "simplicity 1.0 2.0 1.0"),
+        ("ignored", "choices"),
+        ("likelihood", "simplicity 0.0 2.0 1.0"),
+        ("likelihood", "simplicity 0.5 2.0 1.0"),
+        ("evidence uniform 600.0", "flat"),
+        (corridor, "flat"),
+        (corridor, "choices"),
+        (corridor, "simplicity 0.3 2.0 1.0"),
+    ];
+    let sources = [fixture("aces.ron").prefix(9), snake_3x3(true).prefix(12)];
+    for exploration in &sources {
+        for (index, (metrical, prior)) in cases.into_iter().enumerate() {
+            for prune in [false, true] {
+                let mut terms = Terms::new(metrical, prior);
+                if index % 2 == 1 {
+                    terms.appearance.insert((8, 0, 0), 2.5);
+                    terms.appearance.insert((8, 1, 2), -1.0);
+                    terms.appearance.insert((5, 1, 0), -0.5);
+                }
+                let mut question = Question::new(exploration, Objective::Posterior(terms));
+                question.prune = prune;
+                question.closed = index == 2;
+                let proof = question.prove();
+                let verdict = accepts(&proof.text, exploration);
+                assert_eq!(verdict.maps, proof.maps);
+                assert_eq!(verdict.on_trust.is_empty(), metrical == "ignored" && index % 2 == 0);
+            }
+        }
+    }
+}
+
+/// A square that odometry closes with an error: with two places fewer the loop has to bend.
+#[test]
+fn an_exploration_that_nothing_explains_has_no_best() {
+    // Back through the door that the robot came by, to a place that was no door before.
+    let exploration = hssh_causal::Exploration::from_ron(
+        r#"(stars: {"door": ["0+", "0-"], "end": ["0+", "0- closed"]}, start: "door",
+            travels: [(exit: "0+", entry: "0-", star: "door"), (exit: "0-", entry: "0+", star: "end")])"#,
+    )
+    .unwrap();
+    let proof = Question::new(&exploration, Objective::Preference("ignored")).prove();
+    let verdict = accepts(&proof.text, &exploration);
+    assert_eq!((verdict.best, verdict.maps, verdict.expanded), (Best::None, 0, 2));
+    assert!(report(&verdict).contains("none"));
+}
+
+#[test]
+fn a_report_names_the_claim_and_what_is_on_trust() {
+    let exploration = fixture("aces.ron").prefix(6);
+    let mut terms = Terms::new("likelihood", "flat");
+    terms.appearance.insert((2, 1, 0), 0.5);
+    let text = Question::new(&exploration, Objective::Posterior(terms)).prove().text;
+    let report = report(&accepts(&text, &exploration));
+    for part in ["The certificate holds", "posterior probability", "all others", "lowest minimum", "1 ratios"]
+    {
+        assert!(report.contains(part), "{part} in {report}");
+    }
+}
