@@ -11,7 +11,7 @@ use crate::root;
 ///
 /// The layers follow the SSH: control and causal below topological, metrical beside it, search above.
 /// Dev-dependencies are free; `hssh-oracle` may be nothing else.
-const LAYERS: [(&str, &[&str]); 11] = [
+const LAYERS: [(&str, &[&str]); 12] = [
     ("hssh-topology", &[]),
     ("hssh-causal", &["hssh-topology"]),
     ("hssh-verify", &["hssh-causal", "hssh-topology"]),
@@ -26,6 +26,7 @@ const LAYERS: [(&str, &[&str]); 11] = [
         &[
             "hssh-topology",
             "hssh-causal",
+            "hssh-verify",
             "hssh-metrics",
             "hssh-local",
             "hssh-search",

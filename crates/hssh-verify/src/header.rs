@@ -1,5 +1,6 @@
 //! The head of a certificate: for which exploration it speaks, under which rules, and what it claims.
 
+use serde::Serialize;
 use std::collections::BTreeMap;
 
 use hssh_causal::Exploration;
@@ -31,7 +32,8 @@ pub(crate) struct Claimed<T> {
 }
 
 /// The value of the best map.
-#[derive(Clone, Copy, PartialEq, Debug)]
+#[derive(Clone, Copy, PartialEq, Debug, Serialize)]
+#[serde(rename_all = "snake_case")]
 pub enum Best {
     /// No map explains everything.
     None,

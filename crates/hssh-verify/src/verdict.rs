@@ -1,6 +1,7 @@
 //! The verdict on a certificate: the claim as a whole, and what it still rests on.
 
 use hssh_causal::Exploration;
+use serde::Serialize;
 
 use crate::header::{Best, Header, Metrical, Objective};
 use crate::lines::{Lines, Refusal};
@@ -10,7 +11,7 @@ use crate::step::Stepper;
 use crate::walk::{Tally, Walk};
 
 /// What a certificate proves, once every line of it was found to hold.
-#[derive(Clone, PartialEq, Debug)]
+#[derive(Clone, PartialEq, Debug, Serialize)]
 pub struct Verdict {
     /// What makes a map the best, in words.
     pub objective: String,

@@ -84,6 +84,8 @@ pub(crate) enum Failure {
     ReadLog { file: PathBuf, error: Box<hssh_local::LogError> },
     #[error("{}: {error}", file.display())]
     Survey { file: PathBuf, error: Box<hssh_local::SurveyError> },
+    #[error("{} proves nothing: {refusal}", file.display())]
+    Refused { file: PathBuf, refusal: hssh_verify::Refusal },
     #[error("nothing is proved, so that there is no certificate: see the verdict above")]
     NothingProved,
     #[error("{0}")]
@@ -126,7 +128,11 @@ impl Failure {
     }
 
     pub(crate) fn exit_code(&self) -> ExitCode {
-        if self.is_broken_pipe() { ExitCode::SUCCESS } else { ExitCode::from(2) }
+        match self {
+            _ if self.is_broken_pipe() => ExitCode::SUCCESS,
+            Failure::Refused { .. } => ExitCode::from(1),
+            _ => ExitCode::from(2),
+        }
     }
 
     fn is_broken_pipe(&self) -> bool {

@@ -28,6 +28,7 @@ fn main() -> ExitCode {
         Command::Stars(options) => command::stars::run(&options),
         Command::Explore(options) => command::explore::run(&options),
         Command::Simulate(options) => command::simulate::run(&options),
+        Command::Verify(options) => command::verify::run(&options),
         Command::Options => command::print_options(),
     };
     match done {

@@ -1,12 +1,13 @@
 //! A search tree too large for little maps: nodes as dots, steps as lines of two kinds.
 
 use hssh_topology::Derivation;
+use nalgebra::vector;
 
 use super::SearchTree;
 use super::arrangement::Arrangement;
 use super::legend::{draw_levels, draw_notes, signs_note, text_size};
 use super::mark::draw_dot;
-use crate::svg::{Canvas, Point};
+use crate::svg::Canvas;
 
 /// The room for a leaf, in pixels: little if there are very many.
 fn column_width(leaves: usize) -> f64 {

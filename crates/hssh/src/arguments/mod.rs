@@ -37,6 +37,8 @@ pub(crate) enum Command {
     Explore(ExploreArguments),
     /// Drive a simulated robot through a grid map, and write its laser log.
     Simulate(SimulateArguments),
+    /// Check by itself what a proof rests on: a certificate that `map --certificate` wrote.
+    Verify(VerifyArguments),
     /// Print the options that --options reads, each with its default.
     Options,
 }
@@ -90,6 +92,17 @@ pub(crate) struct MapArguments {
     pub(crate) debug_dir: Option<PathBuf>,
     #[command(flatten)]
     pub(crate) places: PlaceArguments,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct VerifyArguments {
+    /// The certificate (see docs/certificate.md).
+    pub(crate) certificate: PathBuf,
+    /// The exploration that it is about, a RON file; of a log's, what `hssh explore` makes of it.
+    pub(crate) exploration: PathBuf,
+    /// Print one JSON object.
+    #[arg(long)]
+    pub(crate) json: bool,
 }
 
 #[derive(Debug, Args)]
