@@ -42,7 +42,7 @@ xflags::xflags! {
         cmd bench {
             /// Which one.
             optional name: String
-            /// With `graphs`: the folder that contains `posegraph/`; the environment variable HSSH_DATA if not given.
+            /// With `graphs` and `online`: the folder that contains `posegraph/` and `logs/`; the environment variable HSSH_DATA if not given.
             optional data: PathBuf
             /// Runs of each measurement, of which the median counts; 5 if not given.
             optional --runs count: usize

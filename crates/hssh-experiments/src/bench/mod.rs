@@ -3,11 +3,13 @@
 mod closures;
 mod faces;
 mod graphs;
+mod online;
 mod proof;
 pub(crate) mod speed;
 mod usage;
 
 use std::error::Error;
+use std::path::PathBuf;
 use std::time::Duration;
 
 use crate::flags;
@@ -16,19 +18,21 @@ use crate::flags;
 pub(crate) fn run(flags: &flags::Bench) -> Result<(), Box<dyn Error>> {
     let runs = flags.runs.unwrap_or(5).max(1);
     let limit = Duration::from_secs(flags.seconds.unwrap_or(60));
+    let data = std::env::var_os("HSSH_DATA").map(PathBuf::from);
     match flags.name.as_deref() {
         Some("speed") => speed::run(runs),
         Some("faces") => faces::run(runs),
         Some("proof") => proof::run(limit),
         Some("graphs") => graphs::run(flags.data.as_deref(), runs),
         Some("closures") => closures::run(runs),
+        Some("online") => online::run(flags.data.as_deref().or(data.as_deref())),
         None => {
             speed::run(runs)?;
             faces::run(runs)?;
             proof::run(limit)
         }
         Some(other) => {
-            let names = "speed, faces, proof, graphs, closures";
+            let names = "speed, faces, proof, graphs, closures, online";
             Err(format!("there is no benchmark `{other}`; there are: {names}").into())
         }
     }
