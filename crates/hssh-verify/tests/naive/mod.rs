@@ -30,6 +30,7 @@ pub(crate) enum Objective {
 }
 
 /// A certificate with what it was made from.
+#[allow(dead_code)] // not every test looks at more than the text
 pub(crate) struct Proof {
     pub(crate) text: String,
     /// Hypotheses by the number of travels that they explain.
