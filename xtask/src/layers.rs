@@ -26,6 +26,7 @@ const LAYERS: [(&str, &[&str]); 11] = [
         &[
             "hssh-topology",
             "hssh-causal",
+            "hssh-verify",
             "hssh-metrics",
             "hssh-local",
             "hssh-search",

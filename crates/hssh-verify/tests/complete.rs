@@ -157,3 +157,16 @@ fn a_report_names_the_claim_and_what_is_on_trust() {
         assert!(report.contains(part), "{part} in {report}");
     }
 }
+
+#[test]
+fn the_certificate_shown_in_the_documentation_holds() {
+    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../../docs/certificate.md");
+    let page = std::fs::read_to_string(path).unwrap();
+    let shown = page.split("```text\n").nth(1).and_then(|rest| rest.split("```").next()).unwrap();
+    let exploration = hssh_causal::Exploration::from_ron(
+        r#"(stars: {"door": ["0+", "0-"]}, start: "door", travels: [(exit: "0+", entry: "0-", star: "door")])"#,
+    )
+    .unwrap();
+    let verdict = accepts(shown, &exploration);
+    assert_eq!((verdict.best, verdict.maps, verdict.expanded), (Best::Rank([0, 1, 2, 0]), 1, 1));
+}
