@@ -4,7 +4,7 @@ mod naive;
 mod support;
 
 use hssh_topology::Axioms;
-use hssh_verify::{Best, report};
+use hssh_verify::{Best, report, verify};
 use hssh_world::{DriftModel, PlaceId, grid, snake, thesis_3x4};
 use naive::costs::Terms;
 use naive::{Objective, Question};
@@ -169,4 +169,77 @@ fn the_certificate_shown_in_the_documentation_holds() {
     .unwrap();
     let verdict = accepts(shown, &exploration);
     assert_eq!((verdict.best, verdict.maps, verdict.expanded), (Best::Rank([0, 1, 2, 0]), 1, 1));
+}
+
+/// For every node of a whole tree: a bound above the best map below it is too high.
+fn no_bound_above_the_maps_below(
+    question: &Question<'_>,
+    above: impl Fn(&[f64]) -> Vec<f64>,
+    lowest: &str,
+) -> usize {
+    let proof = question.prove();
+    let mut lines: Vec<&str> = proof.text.lines().collect();
+    let best = lines.iter().position(|line| line.starts_with("best")).unwrap();
+    lines[best] = lowest;
+    let mut tried = 0;
+    for (line, least) in &proof.least_below {
+        let Some(least) = least.as_ref().filter(|_| lines[line - 1].starts_with('e')) else { continue };
+        let before = lines[..line - 1].join("\n");
+        let text = format!("{before}\no {}\n", question.write(&above(least)));
+        let refusal = verify(&text, question.exploration).unwrap_err();
+        assert_eq!(refusal.line, *line, "{refusal}");
+        assert!(refusal.reason.contains("too high"), "{refusal}");
+        tried += 1;
+    }
+    tried
+}
+
+#[test]
+fn bounds_of_preference_are_below_all_maps() {
+    let sources = [fixture("figure-2-4.ron"), fixture("aces.ron"), snake_3x3(false)];
+    let relaxed = Axioms { no_self_intersection: false, no_circular_path: false, ..Axioms::default() };
+    let mut tried = 0;
+    for exploration in &sources {
+        for genus in ["first", "last"] {
+            let short = exploration.prefix(8);
+            let mut question = Question::new(exploration, Objective::Preference(genus));
+            tried += no_bound_above_the_maps_below(&question, next_rank, "best 0 0 0 0");
+            question.closed = true;
+            tried += no_bound_above_the_maps_below(&question, next_rank, "best 0 0 0 0");
+            question = Question::new(&short, Objective::Preference(genus));
+            question.axioms = Axioms { max_genus: Some(0), ..relaxed };
+            tried += no_bound_above_the_maps_below(&question, next_rank, "best 0 0 0 0");
+        }
+    }
+    assert!(tried > 500);
+}
+
+/// The next rank in the order.
+fn next_rank(rank: &[f64]) -> Vec<f64> {
+    let mut next = rank.to_vec();
+    *next.last_mut().unwrap() += 1.0;
+    next
+}
+
+#[test]
+fn bounds_of_posteriors_are_below_all_maps() {
+    let corridor = "evidence corridor 8.0 0.5 0.15 0.1";
+    let cases = [
+        ("ignored", "simplicity 1.0 2.0 1.0"),
+        ("likelihood", "simplicity 0.5 2.0 1.0"),
+        ("evidence uniform 600.0", "choices"),
+        ("evidence uniform 1e-9", "flat"),
+        (corridor, "simplicity 0.3 2.0 1.0"),
+    ];
+    for exploration in [fixture("aces.ron").prefix(9), snake_3x3(true).prefix(13)] {
+        for (metrical, prior) in cases {
+            let mut terms = Terms::new(metrical, prior);
+            terms.appearance.insert((8, 0, 0), 2.5);
+            terms.appearance.insert((7, 1, 2), -1.0);
+            let question = Question::new(&exploration, Objective::Posterior(terms));
+            let above = |least: &[f64]| vec![least[0] + 1e-4 * (1.0 + least[0].abs())];
+            let tried = no_bound_above_the_maps_below(&question, above, "best -1e9");
+            assert!(tried > 10);
+        }
+    }
 }
