@@ -1,4 +1,5 @@
 //! Complete certificates of small explorations are accepted, and count what was published.
+#![allow(clippy::unwrap_used, reason = "in tests a failed unwrap is the failed assertion")]
 
 mod naive;
 mod support;

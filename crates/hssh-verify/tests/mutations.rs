@@ -1,4 +1,5 @@
 //! Certificates that were changed are refused, at the line that does not hold.
+#![allow(clippy::unwrap_used, reason = "in tests a failed unwrap is the failed assertion")]
 
 mod naive;
 mod support;
