@@ -45,12 +45,13 @@ pub(crate) fn by_preference(
         GenusRank::Last => "last",
     };
     let mut entries = entries(engine);
-    if options.order == Order::BreadthFirst {
-        let mut cursor = Cursor::new(experience);
-        for node in engine.fringe.nodes.clone().map(NodeId::new) {
+    // Of a map the genus is told, whether or not it counts.
+    let travels = engine.travels();
+    let mut cursor = Cursor::new(experience);
+    for node in engine.tree.nodes().filter(|&node| engine.tree.depth(node) == travels) {
+        if options.order == Order::BreadthFirst || matches!(entries[node.index()], Entry::Found(_)) {
             let measure = Measure::of(&cursor.go_to(node, &engine.tree, experience).map);
-            let score = preference.measure(preference.rank(measure));
-            entries[node.index()] = Entry::Found(Score::Measure(score));
+            entries[node.index()] = Entry::Found(Score::Measure(measure));
         }
     }
     let mut text = head(options, exploration);

@@ -304,3 +304,16 @@ impl std::fmt::Display for Prior {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::fnv1a;
+
+    /// Test vectors that the authors of the hash published.
+    #[test]
+    fn the_hash_is_fnv_1a() {
+        assert_eq!(fnv1a(b""), 0xcbf2_9ce4_8422_2325);
+        assert_eq!(fnv1a(b"a"), 0xaf63_dc4c_8601_ec8c);
+        assert_eq!(fnv1a(b"foobar"), 0x8594_4171_f739_67e8);
+    }
+}

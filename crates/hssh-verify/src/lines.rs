@@ -44,9 +44,12 @@ impl<'a> Lines<'a> {
 
     /// The next statement, which has to be there.
     pub(crate) fn next(&mut self, expected: &str) -> Result<Statement<'a>, Refusal> {
-        let missing =
-            |line| Refusal::new(line, format!("the certificate ends where {expected} was expected"));
-        self.next_if_any().ok_or_else(|| missing(self.number + 1))
+        self.next_if_any().ok_or_else(|| self.ended(expected))
+    }
+
+    /// That there is nothing more.
+    pub(crate) fn ended(&self, expected: &str) -> Refusal {
+        Refusal::new(self.number + 1, format!("the certificate ends where {expected} was expected"))
     }
 
     /// The next statement, or none at the end of the text.

@@ -21,6 +21,15 @@ pub(crate) fn slack(cost: f64) -> f64 {
     TOLERANCE * (1.0 + cost.abs())
 }
 
+/// How much farther apart two costs may be of something that is worse than the best, relative to by how much it is. Layouts that are
+/// bent out of all measure are found less exactly, and nothing depends on by how much a hopeless map is worse.
+const LEEWAY: f64 = 1e-5;
+
+/// Room for error around the cost of a map, or a bound, claimed to be worse than the best.
+pub(crate) fn leeway(cost: f64, best: f64) -> f64 {
+    slack(cost) + LEEWAY * (cost - best).max(0.0)
+}
+
 /// A node on the branch that is walked.
 struct Node {
     at: Position,

@@ -4,7 +4,7 @@ use std::cmp::Ordering;
 
 use crate::header::{Best, Header, Objective};
 use crate::lines::{Lines, Refusal, Statement, shortened};
-use crate::posterior::{Posterior, slack};
+use crate::posterior::{Posterior, leeway, slack};
 use crate::rank::{GenusPlace, Rank};
 use crate::step::{Choice, Position, Stepper};
 
@@ -96,7 +96,9 @@ impl<'a> Walk<'a> {
         self.tally.levels[0] += 1;
         let mut at_node = true;
         while at_node {
-            let statement = lines.next(&format!("a line for {}", self.whereabouts()))?;
+            let Some(statement) = lines.next_if_any() else {
+                return Err(lines.ended(&format!("a line for {}", self.whereabouts())));
+            };
             at_node = match statement.keyword {
                 "e" => self.expanded(statement)?,
                 "o" => self.open(statement)?,
@@ -262,21 +264,22 @@ impl<'a> Walk<'a> {
 
     fn open_cost(&mut self, statement: &mut Statement<'_>) -> Result<(), Refusal> {
         let claimed = statement.number("a bound in nats")?;
-        let whereabouts = self.whereabouts();
         let Best::Cost(best) = self.header.best.value else {
             return Err(self.open_without_best(statement));
         };
         if claimed <= best + slack(best) {
             return Err(statement.refuse(format!("the bound {claimed} is no worse than the best, {best}")));
         }
+        let pending = self.stepper.map.pending();
         let Some(posterior) = &mut self.posterior else { return Ok(()) };
-        let own = posterior.bound(&mut self.stepper);
-        if claimed > own + slack(own) {
+        let (own, branches) = (posterior.bound(&mut self.stepper), posterior.branches(pending));
+        if claimed - own > leeway(claimed, best) || own.is_nan() {
             return Err(statement.refuse(format!(
-                "the bound {claimed} is too high: for {whereabouts} only {own} can be shown"
+                "the bound {claimed} is too high: for {} only {own} can be shown",
+                self.whereabouts()
             )));
         }
-        self.tally.left.add(posterior.branches(self.stepper.map.pending()) - claimed);
+        self.tally.left.add(branches - claimed);
         Ok(())
     }
 
@@ -333,13 +336,12 @@ impl<'a> Walk<'a> {
 
     fn map_cost(&mut self, statement: &mut Statement<'_>) -> Result<(), Refusal> {
         let claimed = statement.number("a cost in nats")?;
-        let whereabouts = self.whereabouts();
         let Some(posterior) = &self.posterior else { return Ok(()) };
         let own = posterior.cost(&mut self.stepper);
-        if (claimed - own).abs() > slack(own) || own.is_nan() {
-            return Err(
-                statement.refuse(format!("{whereabouts} costs {own} nats, the certificate says {claimed}"))
-            );
+        let best = if let Best::Cost(best) = self.header.best.value { best } else { claimed };
+        if (claimed - own).abs() > leeway(claimed, best) || own.is_nan() {
+            return Err(statement
+                .refuse(format!("{} costs {own} nats, the certificate says {claimed}", self.whereabouts())));
         }
         match self.header.best.value {
             Best::Cost(best) if claimed < best => {

@@ -146,8 +146,8 @@ impl Hypothesis {
                 right.is_disjoint(&left) && on(path).is_disjoint(&right) && on(path).is_disjoint(&left)
             })
         };
-        !(axioms.no_circular_path && paths.iter().any(|path| path.circular))
-            && !(axioms.no_self_intersection && paths.iter().any(meets_twice))
+        (!axioms.no_circular_path || paths.iter().all(|path| !path.circular))
+            && (!axioms.no_self_intersection || !paths.iter().any(meets_twice))
             && axioms.max_places.is_none_or(|most| self.places.len() <= most as usize)
             && axioms.max_genus.is_none_or(|most| self.genus() <= most as usize)
             && (!axioms.perpendicular || perpendicular())

@@ -30,12 +30,15 @@ pub(crate) enum Objective {
 }
 
 /// A certificate with what it was made from.
+#[allow(dead_code)] // not every test looks at more than the text
 pub(crate) struct Proof {
     pub(crate) text: String,
     /// Hypotheses by the number of travels that they explain.
     pub(crate) levels: Vec<u64>,
     pub(crate) maps: u64,
     pub(crate) best: Option<Vec<f64>>,
+    /// By node: the number of its line in the certificate, and the least value of the maps below it.
+    pub(crate) least_below: Vec<(usize, Option<Vec<f64>>)>,
 }
 
 struct Search<'a> {
@@ -46,6 +49,7 @@ struct Search<'a> {
     maps: u64,
     left: f64,
     found: f64,
+    least_below: Vec<(usize, Option<Vec<f64>>)>,
 }
 
 impl Question<'_> {
@@ -84,21 +88,32 @@ impl Question<'_> {
             }
         }
         text += "tree\n";
+        let head = text.lines().count();
+        let least_below =
+            search.least_below.iter().map(|(line, least)| (head + line, least.clone())).collect();
         text += &search.tree;
         text += "end\n";
-        Proof { text, levels: search.levels, maps: search.maps, best: all.best }
+        Proof { text, levels: search.levels, maps: search.maps, best: all.best, least_below }
     }
 
     fn search(&self, best: Option<Vec<f64>>) -> Search<'_> {
         let levels = vec![0; self.exploration.travels().len() + 1];
-        let mut search =
-            Search { question: self, best, tree: String::new(), levels, maps: 0, left: 0.0, found: 0.0 };
+        let mut search = Search {
+            question: self,
+            best,
+            tree: String::new(),
+            levels,
+            maps: 0,
+            left: 0.0,
+            found: 0.0,
+            least_below: Vec::new(),
+        };
         let known = search.best.clone();
         search.visit(&Hypothesis::root(self.exploration), &Costs::default(), known.as_deref());
         search
     }
 
-    fn write(&self, value: &[f64]) -> String {
+    pub(crate) fn write(&self, value: &[f64]) -> String {
         match &self.objective {
             // Kept in the order of preference; written f1, f2, f3, genus.
             Objective::Preference("first") => format!("{} {} {} {}", value[1], value[2], value[3], value[0]),
@@ -122,14 +137,22 @@ impl Question<'_> {
 }
 
 impl Search<'_> {
-    fn visit(&mut self, node: &Hypothesis, costs: &Costs, known: Option<&[f64]>) {
+    fn visit(&mut self, node: &Hypothesis, costs: &Costs, known: Option<&[f64]>) -> Option<Vec<f64>> {
+        let at = self.least_below.len();
+        self.least_below.push((at + 1, None)); // every node has one line
+        let least = self.value(node, costs, known);
+        self.least_below[at].1.clone_from(&least);
+        least
+    }
+
+    fn value(&mut self, node: &Hypothesis, costs: &Costs, known: Option<&[f64]>) -> Option<Vec<f64>> {
         let question = self.question;
         let travels = question.exploration.travels().len();
         self.levels[node.explained] += 1;
         let left = travels - node.explained;
         if question.closed && node.pending().len() > 2 * left {
             self.tree += "x\n";
-            return;
+            return None;
         }
         if left == 0 {
             let value = match &question.objective {
@@ -142,9 +165,9 @@ impl Search<'_> {
             self.maps += 1;
             self.found += (-value[0]).exp();
             if self.best.as_ref().is_none_or(|best| question.is_less(&value, best)) {
-                self.best = Some(value);
+                self.best = Some(value.clone());
             }
-            return;
+            return Some(value);
         }
         if let Some(best) = known {
             // A bound that is weaker than the checker's.
@@ -164,11 +187,12 @@ impl Search<'_> {
                 if let Objective::Posterior(terms) = &question.objective {
                     self.left += (terms.branches(question.exploration, node) - bound[0]).exp();
                 }
-                return;
+                return None;
             }
         }
         self.tree += "e 1\n";
         let children = node.successors(question.exploration, &question.axioms);
+        let mut least: Option<Vec<f64>> = None;
         for child in &children {
             let costs = match &question.objective {
                 Objective::Preference(_) => Costs::default(),
@@ -176,7 +200,12 @@ impl Search<'_> {
                     terms.step(question.exploration, node, child, costs, children.len())
                 }
             };
-            self.visit(child, &costs, known);
+            if let Some(value) = self.visit(child, &costs, known)
+                && least.as_ref().is_none_or(|least| question.is_less(&value, least))
+            {
+                least = Some(value);
+            }
         }
+        least
     }
 }
