@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use clap::Args;
-use hssh_local::{PlaceParameters, SkeletonParameters, SurveyOptions, UnknownSpace};
+use hssh_local::{PlaceOptions, SurveyOptions, UnknownSpace};
 
 #[derive(Debug, Args)]
 pub(crate) struct ExploreOptions {
@@ -16,7 +16,7 @@ pub(crate) struct ExploreOptions {
     #[arg(long, value_name = "FOLDER")]
     pub(crate) debug_dir: Option<PathBuf>,
     #[command(flatten)]
-    pub(crate) places: PlaceOptions,
+    pub(crate) places: PlaceArguments,
 }
 
 #[derive(Debug, Args)]
@@ -55,7 +55,7 @@ pub(crate) struct SimulateOptions {
     #[arg(long, value_name = "FILE")]
     pub(crate) svg: Option<PathBuf>,
     #[command(flatten)]
-    pub(crate) places: PlaceOptions,
+    pub(crate) places: PlaceArguments,
 }
 
 #[derive(Debug, Args)]
@@ -70,7 +70,7 @@ pub(crate) struct StarsOptions {
     #[arg(long, value_name = "X,Y", value_parser = point, allow_hyphen_values = true)]
     pub(crate) at: Option<[f64; 2]>,
     #[command(flatten)]
-    pub(crate) places: PlaceOptions,
+    pub(crate) places: PlaceArguments,
     /// Unknown cells are free, as in floor plans that only have walls.
     #[arg(long)]
     pub(crate) unknown_is_free: bool,
@@ -83,7 +83,7 @@ pub(crate) struct StarsOptions {
 }
 
 impl StarsOptions {
-    pub(crate) fn parameters(&self) -> PlaceParameters {
+    pub(crate) fn parameters(&self) -> PlaceOptions {
         let unknown = if self.unknown_is_free { UnknownSpace::Free } else { UnknownSpace::Wall };
         self.places.in_grids(unknown)
     }
@@ -92,8 +92,8 @@ impl StarsOptions {
 /// What counts as a place.
 #[derive(Debug, Args)]
 #[command(next_help_heading = "Places")]
-pub(crate) struct PlaceOptions {
-    /// Passages narrower than this many metres are closed [default: 0.6 in grid maps, 0.55 along logs].
+pub(crate) struct PlaceArguments {
+    /// Passages narrower than this many metres are closed [default: 0.6].
     #[arg(long, value_name = "METRES", value_parser = length)]
     pub(crate) narrowest: Option<f64>,
     /// Ways that lead on for less than this many metres are no ways out [default: 1 in grid maps, 8 along logs].
@@ -104,26 +104,27 @@ pub(crate) struct PlaceOptions {
     pub(crate) clutter: Option<f64>,
 }
 
-impl PlaceOptions {
+impl PlaceArguments {
     /// What they mean in a grid map.
-    pub(crate) fn in_grids(&self, unknown: UnknownSpace) -> PlaceParameters {
-        let usual = SkeletonParameters::default();
-        let skeleton = SkeletonParameters {
-            unknown,
-            clutter: self.clutter.unwrap_or(usual.clutter),
-            narrowest_passage: self.narrowest.unwrap_or(usual.narrowest_passage),
-            shallowest_branch: self.shallowest.unwrap_or(usual.shallowest_branch),
-            ..usual
-        };
-        PlaceParameters { skeleton, ..PlaceParameters::default() }
+    pub(crate) fn in_grids(&self, unknown: UnknownSpace) -> PlaceOptions {
+        let usual = PlaceOptions::default();
+        let mut options = self.shallowest.map_or(usual, |depth| usual.with_depth(depth));
+        options.skeleton.unknown = unknown;
+        self.narrow(options)
     }
 
     /// What they mean along a log.
     pub(crate) fn along_logs(&self) -> SurveyOptions {
         let usual = SurveyOptions::default();
-        let mut options = self.shallowest.map_or(usual, |depth| usual.with_depth(depth));
-        options.place.narrowest_way = self.narrowest.unwrap_or(options.place.narrowest_way);
-        options.place.clutter = self.clutter.unwrap_or(options.place.clutter);
+        let options = self.shallowest.map_or(usual, |depth| usual.with_depth(depth));
+        SurveyOptions { place: self.narrow(options.place), ..options }
+    }
+
+    /// What they say about free space, which is the same in both.
+    fn narrow(&self, mut options: PlaceOptions) -> PlaceOptions {
+        let skeleton = &mut options.skeleton;
+        skeleton.narrowest_passage = self.narrowest.unwrap_or(skeleton.narrowest_passage);
+        skeleton.clutter = self.clutter.unwrap_or(skeleton.clutter);
         options
     }
 

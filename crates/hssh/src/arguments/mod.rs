@@ -16,7 +16,7 @@ use hssh_search::{
 use hssh_topology::{Axioms, GenusRank, Preference, Simplicity};
 
 use crate::failure::Failure;
-pub(crate) use local::{ExploreOptions, PlaceOptions, SimulateOptions, StarsOptions};
+pub(crate) use local::{ExploreOptions, PlaceArguments, SimulateOptions, StarsOptions};
 
 /// Topological maps of places that look alike: all that explain an exploration, ranked and drawn.
 #[derive(Debug, Parser)]
@@ -89,7 +89,7 @@ pub(crate) struct MapOptions {
     #[arg(long, value_name = "FOLDER")]
     pub(crate) debug_dir: Option<PathBuf>,
     #[command(flatten)]
-    pub(crate) places: PlaceOptions,
+    pub(crate) places: PlaceArguments,
 }
 
 #[derive(Debug, Args)]

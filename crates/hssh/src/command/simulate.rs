@@ -76,7 +76,7 @@ fn robot(options: &SimulateOptions) -> RobotOptions {
     let mut outlook = options.places.along_logs();
     outlook.place.arrival = usual.outlook.place.arrival;
     // Noise makes passages look narrower; the robot goes where it fits.
-    outlook.place.narrowest_way = usual.outlook.place.narrowest_way;
+    outlook.place.skeleton.narrowest_passage = usual.outlook.place.skeleton.narrowest_passage;
     RobotOptions {
         travels: options.travels,
         places: options.places.in_grids(UnknownSpace::Wall),

@@ -4,9 +4,9 @@ use std::path::Path;
 
 use hssh_draw::{GridPicture, draw_grid};
 use hssh_local::{
-    DistanceField, DoorParameters, Gateway, LocalMapOptions, LocalStar, Neighborhood, Occupancy,
-    OccupancyGrid, PlaceGraph, PlaceKind, PlaceParameters, Visit, doors, global_map, hidden_area,
-    neighborhood, read_floor_plan, read_map,
+    DistanceField, DoorOptions, Gateway, LocalMapOptions, LocalStar, Neighborhood, Occupancy, OccupancyGrid,
+    PlaceGraph, PlaceKind, PlaceOptions, Visit, doors, global_map, hidden_area, neighborhood,
+    read_floor_plan, read_map,
 };
 use hssh_metrics::Pose;
 use serde::Serialize;
@@ -99,13 +99,13 @@ fn read(file: &Path, resolution: Option<f64>) -> Result<OccupancyGrid, Failure> 
 /// All places of the map.
 fn everywhere(
     grid: &OccupancyGrid,
-    parameters: &PlaceParameters,
+    parameters: &PlaceOptions,
     options: &StarsOptions,
 ) -> Result<Status, Failure> {
     let graph = PlaceGraph::new(grid, parameters).map_err(|error| failure(&options.map, error))?;
     if let Some(file) = &options.svg {
         let places = graph.places.iter().map(|place| (place.center, &place.star)).collect();
-        let doors = doors(grid, &graph.constrictions, &DoorParameters::default());
+        let doors = doors(grid, &graph.constrictions, &DoorOptions::default());
         let skeleton = Some(&graph.skeleton);
         let picture = GridPicture { skeleton, places, constrictions: &doors, ..GridPicture::default() };
         write_file(file, &draw_grid(grid, &picture))?;
@@ -138,12 +138,7 @@ fn along(options: &StarsOptions) -> Result<Status, Failure> {
         cell.map_or(0.0, |cell| field.clearance(cell))
     };
     let place = |visit: &Visit| {
-        let kind = match visit.star.gateways().count() {
-            1 => PlaceKind::DeadEnd,
-            2 => PlaceKind::Corner,
-            _ => PlaceKind::Junction,
-        };
-        PlaceReport::new(kind, [visit.frame.x, visit.frame.y], clearance(visit), &visit.star)
+        PlaceReport::new(visit.star.kind(), [visit.frame.x, visit.frame.y], clearance(visit), &visit.star)
     };
     let places: Vec<PlaceReport> = survey.visits.iter().map(place).collect();
     if options.json {
@@ -163,7 +158,7 @@ fn along(options: &StarsOptions) -> Result<Status, Failure> {
 fn around(
     grid: &OccupancyGrid,
     point: [f64; 2],
-    parameters: &PlaceParameters,
+    parameters: &PlaceOptions,
     options: &StarsOptions,
 ) -> Result<Status, Failure> {
     let outside = || Failure::Usage(format!("the point ({}, {}) is not on the map", point[0], point[1]));
@@ -200,7 +195,7 @@ impl Report {
             place: place.0,
             end: graph.place(place).star.star.name(olp).to_string(),
         };
-        let criterion = DoorParameters::default();
+        let criterion = DoorOptions::default();
         let constriction = |gateway: &Gateway| {
             let hidden_area = hidden_area(grid, gateway, &criterion);
             let is_door = criterion.accept(gateway, hidden_area);

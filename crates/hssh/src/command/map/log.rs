@@ -11,7 +11,7 @@ use hssh_search::Appearance;
 use hssh_topology::{Isomorphism, Position};
 
 use super::Source;
-use crate::arguments::PlaceOptions;
+use crate::arguments::PlaceArguments;
 use crate::command::explore::{failed, read_log, surveyed};
 use crate::command::stages::{draw_survey, too_large};
 use crate::failure::Failure;
@@ -24,7 +24,7 @@ pub(crate) struct Surveyed {
 }
 
 /// Reads a log and surveys it; draws that into a folder if one is given.
-pub(super) fn read(file: &Path, places: &PlaceOptions, folder: Option<&Path>) -> Result<Source, Failure> {
+pub(super) fn read(file: &Path, places: &PlaceArguments, folder: Option<&Path>) -> Result<Source, Failure> {
     let log = read_log(file)?;
     let survey = surveyed(file, &log, &places.along_logs())?;
     if let Some(folder) = folder {
