@@ -4,7 +4,7 @@ use std::hint::black_box;
 
 use criterion::{Criterion, criterion_group, criterion_main};
 use hssh_local::{
-    DistanceField, FreeSpace, Lattice, Occupancy, OccupancyGrid, PlaceGraph, PlaceParameters, Skeleton,
+    DistanceField, FreeSpace, Lattice, Occupancy, OccupancyGrid, PlaceGraph, PlaceOptions, Skeleton,
     neighborhood,
 };
 
@@ -21,7 +21,7 @@ fn city(side: u32) -> OccupancyGrid {
 }
 
 fn stages(criterion: &mut Criterion) {
-    let parameters = PlaceParameters::default();
+    let parameters = PlaceOptions::default();
     let grid = city(2048);
     let free = FreeSpace::new(&grid, &parameters.skeleton);
     let mut group = criterion.benchmark_group("4 megapixels");

@@ -2,11 +2,9 @@
 
 mod carmen;
 mod distance;
-mod gateway;
 mod global_map;
 mod grid;
 mod local_map;
-mod local_star;
 mod map_server;
 mod matching;
 mod place;
@@ -18,20 +16,19 @@ pub use carmen::{
     LaserLog, LaserMessage, LogError, LogReader, LogWarning, LoggedScan, Message, MessageProblem,
 };
 pub use distance::DistanceField;
-pub use gateway::{DoorParameters, Gateway, GatewayParameters, doors, hidden_area};
 pub use global_map::{global_map, global_poses, mean_wall_distance, visit_frames};
 pub use grid::{Cell, CellLine, GridError, Lattice, LatticeError, Occupancy, OccupancyGrid};
 pub use local_map::{LocalMap, LocalMapOptions};
-pub use local_star::{
-    Connection, LocalStar, Neighborhood, NeighborhoodError, OpenEnd, Place, PlaceGraph, PlaceGraphError,
-    PlaceKind, PlaceNumber, PlaceParameters, neighborhood,
-};
 pub use map_server::{MapError, encode_png, read_floor_plan, read_map, write_map, write_png};
 pub use matching::{MatchOptions, MotionNoise, Track, TrackedScan, Tracker, track};
-pub use place::{PlaceOptions, Sighting, WayOut, sight};
+pub use place::{
+    DoorOptions, Gateway, GatewayOptions, GridPlace, LocalStar, Neighborhood, NeighborhoodError, OpenEnd,
+    PlaceConnection, PlaceGraph, PlaceGraphError, PlaceKind, PlaceNumber, PlaceOptions, Sighting, doors,
+    hidden_area, neighborhood, sight,
+};
 pub use scan::Scan;
 pub use skeleton::{
-    AxisPoint, EdgeEnd, EdgeId, FreeSpace, NodeId, Skeleton, SkeletonEdge, SkeletonNode, SkeletonParameters,
+    AxisPoint, EdgeEnd, EdgeId, FreeSpace, NodeId, Skeleton, SkeletonEdge, SkeletonNode, SkeletonOptions,
     Tip, UnknownSpace,
 };
 pub use survey::{

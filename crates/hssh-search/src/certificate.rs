@@ -5,17 +5,19 @@
 use std::fmt::Write;
 
 use hssh_causal::Exploration;
+use hssh_metrics::SolveError;
 use hssh_topology::{GenusRank, Measure};
 
 use crate::builder::{MapperBuilder, Objective};
+use crate::context::Context;
 use crate::cursor::Cursor;
-use crate::engine::Engine;
+use crate::engine::{Engine, log_sum};
 use crate::experience::Experience;
-use crate::leaf::Appraise;
+use crate::leaf::{Appraise, Leaf};
 use crate::order::{Goal, Order};
 use crate::posterior::{ByPosterior, MapPrior, Metrical, PlacePrior};
 use crate::preference::ByPreference;
-use crate::report::{Proof, Score};
+use crate::report::Score;
 use crate::tree::{NodeId, Tree};
 
 /// What a certificate says of a node of the tree.
@@ -44,7 +46,7 @@ pub(crate) fn by_preference(
         GenusRank::First => "first",
         GenusRank::Last => "last",
     };
-    let mut entries = entries(engine);
+    let mut entries = entries(engine, engine.frontier.leaves());
     // Of a map the genus is told, whether or not it counts.
     let travels = engine.travels();
     let mut cursor = Cursor::new(experience);
@@ -65,13 +67,33 @@ pub(crate) fn by_preference(
     text
 }
 
-/// Of a search by posterior.
+/// Of a search by posterior. All open hypotheses are laid out first, so that no bound rests on a linear estimate. `None` if that
+/// shows that one of them is no worse than the best map, or cannot be laid out.
 pub(crate) fn by_posterior(
     engine: &Engine<ByPosterior>,
     options: &MapperBuilder,
-    proof: Proof,
     exploration: &Exploration,
-) -> String {
+    context: Context<'_>,
+) -> Option<String> {
+    let Engine { appraiser, tree, .. } = engine;
+    let open: Vec<Leaf<ByPosterior>> = engine.frontier.leaves().cloned().collect();
+    let open = context.crew.map(&open, context.experience, |cursor, leaf| {
+        let (mut leaf, mut laid_out) = (leaf.clone(), leaf.clone());
+        appraiser.settle(&mut laid_out, cursor, tree, context)?;
+        // What was estimated is told as long as it is less: of layouts bent out of all measure a lower one may exist.
+        leaf.load.bound = leaf.load.bound.min(laid_out.load.bound);
+        Ok::<_, SolveError>(leaf)
+    });
+    let open = open.into_iter().collect::<Result<Vec<_>, _>>().ok()?;
+    let best = engine.found.first().map(|found| found.leaf.key);
+    let reach = best.map(|best| appraiser.reach(best, 0.0));
+    if open
+        .iter()
+        .any(|leaf| reach.is_none_or(|reach| appraiser.bound(leaf).is_none_or(|bound| bound <= reach)))
+    {
+        return None;
+    }
+    let rest = rest(engine, &open);
     let mut text = head(options, exploration);
     text += "objective posterior\n";
     if let Objective::Posterior(model) = options.objective {
@@ -98,12 +120,21 @@ pub(crate) fn by_posterior(
         let _ = writeln!(text, "appearance {later} {earlier} {rotation} {ratio:?}");
     }
     let mut after = String::new();
-    let _ = writeln!(after, "rest {:?}", proof.rest.unwrap_or(0.0));
+    let _ = writeln!(after, "rest {rest:?}");
     if engine.appraiser.measured.is_some() {
-        let _ = writeln!(after, "trust lowest-minimum {}", engine.solved);
+        let _ = writeln!(after, "trust lowest-minimum {}", engine.solved + open.len() as u64);
     }
-    text += &body(&engine.tree, &entries(engine), proof.best, &after);
-    text
+    let best = best.map(|best| appraiser.score(best));
+    text += &body(tree, &entries(engine, open.iter()), best, &after);
+    Some(text)
+}
+
+/// The probability of all maps that were not found, at most.
+fn rest(engine: &Engine<ByPosterior>, open: &[Leaf<ByPosterior>]) -> f64 {
+    let Engine { appraiser, found, .. } = engine;
+    let found = log_sum(found.iter().map(|found| -appraiser.nats(found.leaf.key)));
+    let open = log_sum(open.iter().map(|leaf| appraiser.log_mass(leaf)));
+    if open == f64::NEG_INFINITY { 0.0 } else { 1.0 / (1.0 + (found - open).exp()) }
 }
 
 fn head(options: &MapperBuilder, exploration: &Exploration) -> String {
@@ -131,13 +162,14 @@ fn head(options: &MapperBuilder, exploration: &Exploration) -> String {
 }
 
 /// What is said of each node: what was found, what is open, and that all others were expanded.
-fn entries<A: Appraise>(engine: &Engine<A>) -> Vec<Entry> {
-    let Engine { appraiser, tree, frontier, found, rejected, .. } = engine;
+fn entries<'a, A: Appraise + 'a>(engine: &Engine<A>, open: impl Iterator<Item = &'a Leaf<A>>) -> Vec<Entry> {
+    let Engine { appraiser, tree, found, rejected, .. } = engine;
     let mut entries = vec![Entry::Expanded; tree.len()];
     let travels = engine.travels();
-    for leaf in frontier.leaves() {
+    for leaf in open {
         let is_map = leaf.depth() == travels && appraiser.is_settled(leaf);
         entries[leaf.node.index()] = match appraiser.bound(leaf) {
+            _ if is_map && !engine.goal.accepts(leaf.is_closed()) => Entry::TurnedDown,
             _ if is_map => Entry::Found(appraiser.score(leaf.key)),
             Some(bound) => Entry::Open(appraiser.score(bound)),
             None => Entry::Open(appraiser.score(leaf.key)),

@@ -294,7 +294,7 @@ impl<A: Appraise> Engine<A> {
 }
 
 /// ln Σ eˣ.
-fn log_sum(logs: impl Iterator<Item = f64>) -> f64 {
+pub(crate) fn log_sum(logs: impl Iterator<Item = f64>) -> f64 {
     let logs: Vec<f64> = logs.collect();
     let most = logs.iter().copied().fold(f64::NEG_INFINITY, f64::max);
     if most == f64::NEG_INFINITY {

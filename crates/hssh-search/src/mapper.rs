@@ -264,12 +264,7 @@ impl Mapper {
     #[must_use]
     pub fn answer(&self, most: usize) -> (Report, Vec<RankedMap>) {
         let watch = Watch::for_tree(self.options.limits, &self.options.monitor);
-        let context = Context {
-            experience: &self.experience,
-            axioms: &self.options.axioms,
-            crew: &self.crew,
-            watch: &watch,
-        };
+        let context = self.context(&watch);
         match &self.search {
             Search::Preference(engine) => {
                 let preference = engine.appraiser.preference;
@@ -347,14 +342,16 @@ impl Mapper {
         if !self.report().is_optimal {
             return None;
         }
-        Some(match &self.search {
+        let watch = Watch::for_tree(self.options.limits, &self.options.monitor);
+        let context = self.context(&watch);
+        match &self.search {
             Search::Preference(engine) => {
-                certificate::by_preference(engine, &self.options, &self.experience, exploration)
+                Some(certificate::by_preference(engine, &self.options, &self.experience, exploration))
             }
             Search::Posterior(engine) => {
-                certificate::by_posterior(engine, &self.options, proof(engine), exploration)
+                certificate::by_posterior(engine, &self.options, exploration, context)
             }
-        })
+        }
     }
 
     /// The tree of all hypotheses made.
@@ -367,6 +364,12 @@ impl Mapper {
     #[must_use]
     pub fn experience(&self) -> &Experience {
         &self.experience
+    }
+
+    /// What every search is given.
+    fn context<'a>(&'a self, watch: &'a Watch) -> Context<'a> {
+        let Mapper { experience, crew, options, .. } = self;
+        Context { experience, axioms: &options.axioms, crew, watch }
     }
 
     fn report_on<A: Appraise>(&self, engine: &Engine<A>, finals: FinalCounts) -> Report {

@@ -8,6 +8,9 @@ use crate::posterior::{Posterior, leeway, slack};
 use crate::rank::{GenusPlace, Rank};
 use crate::step::{Choice, Position, Stepper};
 
+/// So many nats beyond the best one a map weighs nothing.
+const HOPELESS: f64 = 30.0;
+
 /// What the tree amounts to.
 #[derive(Default)]
 pub(crate) struct Tally {
@@ -273,13 +276,14 @@ impl<'a> Walk<'a> {
         let pending = self.stepper.map.pending();
         let Some(posterior) = &mut self.posterior else { return Ok(()) };
         let (own, branches) = (posterior.bound(&mut self.stepper), posterior.branches(pending));
-        if claimed - own > leeway(claimed, best) || own.is_nan() {
+        let is_hopeless = claimed.min(own) > best + HOPELESS;
+        if !(claimed - own <= leeway(claimed, best) || is_hopeless) {
             return Err(statement.refuse(format!(
                 "the bound {claimed} is too high: for {} only {own} can be shown",
                 self.whereabouts()
             )));
         }
-        self.tally.left.add(branches - claimed);
+        self.tally.left.add(branches - claimed.min(own));
         Ok(())
     }
 
@@ -339,7 +343,9 @@ impl<'a> Walk<'a> {
         let Some(posterior) = &self.posterior else { return Ok(()) };
         let own = posterior.cost(&mut self.stepper);
         let best = if let Best::Cost(best) = self.header.best.value { best } else { claimed };
-        if (claimed - own).abs() > leeway(claimed, best) || own.is_nan() {
+        // Of layouts bent out of all measure one or the other may find the lower minimum; both are hopeless.
+        let is_hopeless = claimed.min(own) > best + HOPELESS;
+        if !((claimed - own).abs() <= leeway(claimed, best) || is_hopeless) {
             return Err(statement
                 .refuse(format!("{} costs {own} nats, the certificate says {claimed}", self.whereabouts())));
         }

@@ -5,7 +5,7 @@
 
 use std::collections::BTreeSet;
 
-use hssh_local::{LaserLog, Occupancy, OccupancyGrid, PlaceGraph, PlaceNumber, PlaceParameters};
+use hssh_local::{LaserLog, Occupancy, OccupancyGrid, PlaceGraph, PlaceNumber, PlaceOptions};
 use hssh_world::robot::{Drive, DriveError, Ending, RobotOptions, Strategy, drive};
 use hssh_world::{Floor, Point, floor_plan, floors};
 
@@ -34,7 +34,7 @@ fn nearest(floor: &Floor, [x, y]: [f64; 2]) -> (usize, f64) {
 #[test]
 fn the_places_of_a_floor_plan_are_those_of_its_world() {
     for floor in floors() {
-        let graph = PlaceGraph::new(&plan(&floor), &PlaceParameters::default()).unwrap();
+        let graph = PlaceGraph::new(&plan(&floor), &PlaceOptions::default()).unwrap();
         let places: Vec<(usize, f64)> =
             graph.places.iter().map(|place| nearest(&floor, place.center)).collect();
         assert!(places.iter().all(|place| place.1 < floor.width / 2.0), "{}: {places:?}", floor.name);
@@ -168,7 +168,7 @@ fn a_log_is_read_as_it_was_written() {
 #[test]
 fn a_list_of_places_is_visited_in_order() {
     let grid = plan(&named("grid-3x3"));
-    let graph = PlaceGraph::new(&grid, &PlaceParameters::default()).unwrap();
+    let graph = PlaceGraph::new(&grid, &PlaceOptions::default()).unwrap();
     let next = |from: PlaceNumber, but: Option<PlaceNumber>| {
         let ends = graph.connections.iter().flat_map(|found| {
             let [a, b] = found.ends.map(|end| end.0);

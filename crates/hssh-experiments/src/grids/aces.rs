@@ -3,7 +3,7 @@
 use std::error::Error;
 use std::path::Path;
 
-use hssh_local::{OccupancyGrid, PlaceGraph, PlaceParameters, neighborhood, read_map};
+use hssh_local::{OccupancyGrid, PlaceGraph, PlaceOptions, neighborhood, read_map};
 
 use crate::table::aligned;
 
@@ -23,8 +23,8 @@ pub(crate) struct KnownPlace {
 }
 
 /// What counts as a place where corridors meet.
-pub(super) fn corridors(depth: f64) -> PlaceParameters {
-    let mut parameters = PlaceParameters::default();
+pub(super) fn corridors(depth: f64) -> PlaceOptions {
+    let mut parameters = PlaceOptions::default();
     parameters.skeleton.narrowest_passage = NARROWEST;
     parameters.skeleton.shallowest_branch = depth;
     parameters
@@ -99,7 +99,7 @@ fn is_joined(graph: &PlaceGraph, from: usize, to: usize, known: &[usize]) -> boo
     false
 }
 
-fn local_star(grid: &OccupancyGrid, point: [f64; 2], parameters: &PlaceParameters) -> String {
+fn local_star(grid: &OccupancyGrid, point: [f64; 2], parameters: &PlaceOptions) -> String {
     let Some(window) = grid.window(point, WINDOW) else { return "off the map".to_owned() };
     match neighborhood(&window, point, parameters) {
         Ok(found) => format!("{:?} {}", found.kind, found.star.star),

@@ -3,7 +3,7 @@
 use std::error::Error;
 use std::path::Path;
 
-use hssh_local::{DoorParameters, Gateway, PlaceGraph, PlaceParameters, read_map};
+use hssh_local::{DoorOptions, Gateway, PlaceGraph, PlaceOptions, read_map};
 use serde::Deserialize;
 
 use crate::table::aligned;
@@ -41,7 +41,7 @@ impl Door {
 pub(super) fn report(folder: &Path) -> Result<String, Box<dyn Error>> {
     let doors: Vec<Door> = serde_saphyr::from_str(&std::fs::read_to_string(folder.join("doors.yaml"))?)?;
     let grid = read_map(&folder.join("3.yaml"))?;
-    let graph = PlaceGraph::new(&grid, &PlaceParameters::default())?;
+    let graph = PlaceGraph::new(&grid, &PlaceOptions::default())?;
     let mut gateways = graph.constrictions.clone();
     let constrictions = gateways.len();
     gateways.extend(graph.places.iter().flat_map(|place| place.star.gateways()).copied());
@@ -61,7 +61,7 @@ pub(super) fn report(folder: &Path) -> Result<String, Box<dyn Error>> {
         .to_vec(),
     ];
     for (widest, hidden) in CRITERIA {
-        let criterion = DoorParameters { widest, least_hidden: hidden, ..DoorParameters::default() };
+        let criterion = DoorOptions { widest, least_hidden: hidden, ..DoorOptions::default() };
         let score = |gateways: &[Gateway]| score(&doors, &hssh_local::doors(&grid, gateways, &criterion));
         let (taken, at_door, found) = score(&gateways[..constrictions]);
         let (_, _, found_by_any) = score(&gateways);

@@ -4,7 +4,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::error::Error;
 use std::path::Path;
 
-use hssh_local::{AxisPoint, PlaceGraph, PlaceParameters, read_map};
+use hssh_local::{AxisPoint, PlaceGraph, PlaceOptions, read_map};
 use serde::Deserialize;
 
 #[derive(Deserialize)]
@@ -18,7 +18,7 @@ pub(super) fn report(folder: &Path) -> Result<String, Box<dyn Error>> {
     let rooms = Rooms::read(folder)?;
     let grid = read_map(&folder.join("3.yaml"))?;
     let lattice = *grid.lattice();
-    let graph = PlaceGraph::new(&grid, &PlaceParameters::default())?;
+    let graph = PlaceGraph::new(&grid, &PlaceOptions::default())?;
     let room_of = |point: [f64; 2]| {
         let [column, row] = lattice.continuous(point);
         rooms.at([column, f64::from(lattice.height()) - row])

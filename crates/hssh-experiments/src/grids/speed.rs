@@ -5,7 +5,7 @@ use std::path::Path;
 use std::time::Instant;
 
 use hssh_local::{
-    DistanceField, FreeSpace, Lattice, Occupancy, OccupancyGrid, PlaceGraph, PlaceParameters, Skeleton,
+    DistanceField, FreeSpace, Lattice, Occupancy, OccupancyGrid, PlaceGraph, PlaceOptions, Skeleton,
     neighborhood, read_map,
 };
 
@@ -18,7 +18,7 @@ const SIDE: u32 = 2048;
 pub(super) fn report(folder: &Path) -> Result<String, Box<dyn Error>> {
     let floor = read_map(&folder.join("3.yaml"))?;
     let large = repeated(&floor)?;
-    let parameters = PlaceParameters::default();
+    let parameters = PlaceOptions::default();
     let is_obstacle = |index: usize| large.cells()[index] != Occupancy::Free;
     let distance = median(|| drop(DistanceField::new(*large.lattice(), is_obstacle)));
     let free = FreeSpace::new(&large, &parameters.skeleton);

@@ -4,8 +4,8 @@ use std::error::Error;
 use std::path::Path;
 
 use hssh_local::{
-    Gateway, Lattice, LocalStar, Occupancy, OccupancyGrid, PlaceGraph, PlaceOptions, PlaceParameters,
-    neighborhood, read_floor_plan, read_map, sight,
+    Lattice, LocalStar, Occupancy, OccupancyGrid, PlaceGraph, PlaceOptions, neighborhood, read_floor_plan,
+    read_map, sight,
 };
 use hssh_metrics::wrap_angle;
 use hssh_topology::Isomorphism;
@@ -37,37 +37,28 @@ pub(super) fn report(data: &Path) -> Result<String, Box<dyn Error>> {
     );
     let known = known_places(data)?;
     let points = known.iter().map(|place| place.point).collect::<Vec<_>>();
-    let everywhere = PlaceGraph::new(&gdc, &PlaceParameters::default())?;
+    let everywhere = PlaceGraph::new(&gdc, &PlaceOptions::default())?;
     let wide = everywhere.places.iter().filter(|place| place.clearance > 0.8).map(|place| place.center);
-    let by_axis = |parameters: PlaceParameters| -> Box<Reading> {
+    let by_axis = |parameters: PlaceOptions| -> Box<Reading> {
         Box::new(move |grid, at| {
             let found = neighborhood(grid, at, &parameters).ok()?;
             Some((found.star, found.center, found.clearance))
         })
     };
     let by_ways: Box<Reading> = Box::new(|grid, at| {
-        let found = sight(grid, at.into(), &PlaceOptions::default()).filter(|found| found.is_place)?;
-        let gateways: Vec<Gateway> = found.ways.iter().map(|way| way.gateway).collect();
-        let parameters = PlaceParameters {
-            straight: PlaceOptions::default().straight,
-            aligned: PlaceOptions::default().aligned,
-            ..PlaceParameters::default()
-        };
-        Some((
-            LocalStar::new(found.center.into(), &gateways, &parameters)?,
-            found.center.into(),
-            found.clearance,
-        ))
+        let options = PlaceOptions::corridors();
+        let found = sight(grid, at.into(), &options).filter(|found| found.is_place)?;
+        Some((found.star(&options)?, found.center.into(), found.clearance))
     });
     for (name, grid, points, read, window) in [
-        ("EVG-Thin", &crossing, vec![[11.1, 7.1]], by_axis(PlaceParameters::default()), SMALL_WINDOW),
+        ("EVG-Thin", &crossing, vec![[11.1, 7.1]], by_axis(PlaceOptions::default()), SMALL_WINDOW),
         ("ACES, nine places", &aces, points.clone(), by_axis(corridors(8.0)), WINDOW),
         ("ACES, as along logs", &aces, points, by_ways, WINDOW),
         (
             "gdc3, places with 0.8 m around",
             &gdc,
             wide.collect(),
-            by_axis(PlaceParameters::default()),
+            by_axis(PlaceOptions::default()),
             SMALL_WINDOW,
         ),
     ] {

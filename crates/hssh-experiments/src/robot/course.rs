@@ -3,7 +3,7 @@
 use std::error::Error;
 use std::path::Path;
 
-use hssh_local::{OccupancyGrid, PlaceParameters, read_map};
+use hssh_local::{OccupancyGrid, PlaceOptions, read_map};
 use hssh_world::robot::RobotOptions;
 use hssh_world::{Floor, Point, floor_plan};
 
@@ -43,7 +43,7 @@ impl Course {
     /// The ACES floor as a laser drew it, with its clutter; its nine places are those of the topology made by hand.
     pub(super) fn aces(data: &Path) -> Result<Self, Box<dyn Error>> {
         let places: Vec<[f64; 2]> = known_places(data)?.iter().map(|place| place.point).collect();
-        let mut map = PlaceParameters::default();
+        let mut map = PlaceOptions::default();
         map.skeleton.shallowest_branch = ACES_DEPTH;
         map.skeleton.narrowest_passage = ACES_NARROWEST;
         Ok(Course {

@@ -3,7 +3,7 @@
 use hssh_metrics::Pose;
 use hssh_topology::Position;
 
-use crate::local_star::LocalStar;
+use crate::place::LocalStar;
 use crate::survey::{Visit, turn};
 
 /// The frame of every visit in the frame that the `places` are given in: for each place of a map the frame

@@ -1,19 +1,31 @@
-//! Places along the way: where a neighborhood has other ways out than on and back (section 2.2).
+//! Places, their gateways and their stars in occupancy grids (section 2.2).
 //!
-//! A *way out* is a stretch of free space as wide as a robot that leads some metres away from the
-//! neighborhood: a corridor, but not a door's room, a niche or a lobby, which end before. Ways out are
-//! found by the distance that a robot would have to travel, so that neither clutter nor the shape of a
-//! place matters; where their axes meet is the place. Where only one way leads out, and walls are seen all around, the
-//! place is a dead end.
+//! Two questions are asked of a grid: where all its places are, and how the axis connects them ([`PlaceGraph`],
+//! and [`neighborhood`] for the one around a robot); and whether the robot is at a place now, given a local map
+//! that is full of clutter and ends somewhere ([`sight`]). Both go by one [`PlaceOptions`], and share all that
+//! follows once a way out is known: the gateway across it (`gateway`), the local paths that gateways make
+//! (`local_path`), the star (`star`) and what kind of place it is ([`PlaceKind`]).
+//!
+//! What differs is how a *way out* is found. In `graph` it is a branch of the medial axis, for only an axis tells
+//! which gateways lead to one another. In `sighting` it is free space that leads on far enough for a robot that
+//! travels, whatever the axis does there: in local maps, which are made of few scans, clutter divides the axis of
+//! one corridor into many, and its branches come and go from one look to the next.
 
-mod axis;
-mod center;
-mod dead_end;
-mod geodesic;
+mod constriction;
+mod door;
+mod gateway;
+mod graph;
+mod local_path;
 mod options;
 mod sighting;
-mod ways;
+mod star;
 
-pub use options::PlaceOptions;
+pub use door::{doors, hidden_area};
+pub use gateway::Gateway;
+pub use graph::{
+    GridPlace, Neighborhood, NeighborhoodError, OpenEnd, PlaceConnection, PlaceGraph, PlaceGraphError,
+    PlaceNumber, neighborhood,
+};
+pub use options::{DoorOptions, GatewayOptions, PlaceOptions};
 pub use sighting::{Sighting, sight};
-pub use ways::WayOut;
+pub use star::{LocalStar, PlaceKind};

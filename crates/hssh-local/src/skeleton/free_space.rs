@@ -1,7 +1,7 @@
 //! Free space: where a robot fits, and how far each of its cells is from obstacles.
 
 use super::mask::Mask;
-use super::parameters::{SkeletonParameters, UnknownSpace};
+use super::options::{SkeletonOptions, UnknownSpace};
 use crate::distance::DistanceField;
 use crate::grid::{Cell, Occupancy, OccupancyGrid};
 
@@ -15,18 +15,18 @@ pub struct FreeSpace {
 impl FreeSpace {
     /// The free space of a grid: without clutter, and without passages that are too narrow.
     #[must_use]
-    pub fn new(grid: &OccupancyGrid, parameters: &SkeletonParameters) -> Self {
+    pub fn new(grid: &OccupancyGrid, options: &SkeletonOptions) -> Self {
         let lattice = *grid.lattice();
         let is_obstacle = |index: usize| match grid.cells()[index] {
             Occupancy::Occupied => true,
-            Occupancy::Unknown => parameters.unknown == UnknownSpace::Wall,
+            Occupancy::Unknown => options.unknown == UnknownSpace::Wall,
             Occupancy::Free => false,
         };
         let mut obstacles = Mask::new(&lattice, is_obstacle);
-        remove_clutter(&mut obstacles, (parameters.clutter / lattice.resolution()).round() as u32, grid);
+        remove_clutter(&mut obstacles, (options.clutter / lattice.resolution()).round() as u32, grid);
         let is_obstacle: Vec<bool> = obstacles.in_lattice().collect();
         let field = DistanceField::new(lattice, |index| is_obstacle[index]);
-        let narrowest = parameters.narrowest_passage / 2.0;
+        let narrowest = options.narrowest_passage / 2.0;
         let mask = Mask::new(&lattice, |index| {
             let clearance = field.clearance_at(index);
             clearance > 0.0 && clearance >= narrowest && clearance.is_finite()

@@ -1,14 +1,6 @@
 //! The graph of a medial axis: junctions and tips joined by edges, which are lines of points.
 
-use super::anchor::anchors;
-use super::free_space::FreeSpace;
-use super::mask::Mask;
-use super::parameters::SkeletonParameters;
-use super::prune::prune;
-use super::thinning::thin;
-use super::tip::{cut_taper, tip};
-use super::trace::trace;
-use crate::grid::{Cell, OccupancyGrid};
+use crate::grid::Cell;
 
 /// A node of a skeleton: an index into [`Skeleton::nodes`].
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
@@ -103,30 +95,6 @@ pub struct Skeleton {
 }
 
 impl Skeleton {
-    /// The medial axis of the free space of a grid.
-    #[must_use]
-    pub fn new(grid: &OccupancyGrid, free: &FreeSpace, parameters: &SkeletonParameters) -> Self {
-        let axis = medial_axis(free, parameters);
-        let mut skeleton = prune(trace(&axis, free.field()), parameters);
-        for node in &mut skeleton.nodes {
-            if let [end] = node.ends[..] {
-                let points = &mut skeleton.edges[end.edge.index()].points;
-                if end.is_last {
-                    points.reverse();
-                }
-                let tip = tip(points, grid, free.field());
-                if tip != Tip::Wall {
-                    cut_taper(points, grid, free.field());
-                }
-                (node.at, node.tip) = (points[0], Some(tip));
-                if end.is_last {
-                    points.reverse();
-                }
-            }
-        }
-        skeleton
-    }
-
     /// An edge.
     #[must_use]
     pub fn edge(&self, edge: EdgeId) -> &SkeletonEdge {
@@ -169,25 +137,4 @@ pub(crate) fn length(points: &[AxisPoint]) -> f64 {
 
 pub(crate) fn distance(a: [f64; 2], b: [f64; 2]) -> f64 {
     (a[0] - b[0]).hypot(a[1] - b[1])
-}
-
-/// The cells of the medial axis: free space thinned first down to its anchors and what connects them,
-/// then, where anchors lie side by side, to lines of one cell.
-pub(super) fn medial_axis(free: &FreeSpace, parameters: &SkeletonParameters) -> Mask {
-    let mut mask = free.mask.clone();
-    let is_anchor = anchors(&mask, free.field(), parameters.opening_angle);
-    let rank = ranks(free);
-    thin(&mut mask, |position| rank[position], |_, position| !is_anchor[position]);
-    thin(&mut mask, |position| rank[position], |mask, position| !mask.is_end(position));
-    mask
-}
-
-/// The distance of each cell to obstacles in quarters of a cell, by position.
-fn ranks(free: &FreeSpace) -> Vec<u32> {
-    let mut ranks = vec![0; free.mask.positions()];
-    for position in free.mask.members() {
-        let squared = free.field().squared_cells(free.mask.cell(position)).unwrap_or(0);
-        ranks[position] = (4.0 * f64::from(squared).sqrt()).round() as u32;
-    }
-    ranks
 }

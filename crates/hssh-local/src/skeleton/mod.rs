@@ -6,7 +6,8 @@ mod free_space;
 mod graph;
 mod lobe;
 mod mask;
-mod parameters;
+mod medial_axis;
+mod options;
 mod prune;
 #[cfg(test)]
 mod tests;
@@ -17,4 +18,4 @@ mod trace;
 pub use free_space::FreeSpace;
 pub use graph::{AxisPoint, EdgeEnd, EdgeId, NodeId, Skeleton, SkeletonEdge, SkeletonNode, Tip};
 pub(crate) use graph::{distance, distances, length};
-pub use parameters::{SkeletonParameters, UnknownSpace};
+pub use options::{SkeletonOptions, UnknownSpace};

@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 
 use super::graph::{AxisPoint, EdgeEnd, EdgeId, NodeId, Skeleton, SkeletonEdge, distances, length};
 use super::lobe::Remains;
-use super::parameters::SkeletonParameters;
+use super::options::SkeletonOptions;
 
 /// The lengths over which the slope of the clearance is measured, in metres.
 const SLOPE_WINDOW: [f64; 2] = [0.4, 1.0];
@@ -13,7 +13,7 @@ const SLOPE_WINDOW: [f64; 2] = [0.4, 1.0];
 /// free disc at their junction: those with a tip, then those that lead into loops and back; two edges that
 /// remain at a former junction become one. The ends of branches that run into a corner of a room are cut
 /// off first. At last, pieces of the axis go that are shorter as a whole.
-pub(super) fn prune(skeleton: Skeleton, parameters: &SkeletonParameters) -> Skeleton {
+pub(super) fn prune(skeleton: Skeleton, options: &SkeletonOptions) -> Skeleton {
     let mut pruner = Pruner {
         nodes: skeleton.nodes.iter().map(|node| node.ends.clone()).collect(),
         lengths: skeleton.edges.iter().map(|edge| length(&edge.points)).collect(),
@@ -22,12 +22,12 @@ pub(super) fn prune(skeleton: Skeleton, parameters: &SkeletonParameters) -> Skel
     };
     pruner.join_all();
     for _ in 0..2 {
-        pruner.trim_all((parameters.opening_angle / 2.0).cos());
-        while let Some(branch) = pruner.shallowest_branch(parameters.shallowest_branch) {
+        pruner.trim_all((options.opening_angle / 2.0).cos());
+        while let Some(branch) = pruner.shallowest_branch(options.shallowest_branch) {
             pruner.take_out(branch);
         }
     }
-    pruner.take_out(pruner.small_pieces(parameters.shallowest_branch));
+    pruner.take_out(pruner.small_pieces(options.shallowest_branch));
     pruner.rest()
 }
 

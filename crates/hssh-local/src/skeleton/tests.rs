@@ -2,14 +2,14 @@
 
 use proptest::prelude::*;
 
-use super::graph::medial_axis;
 use super::mask::Mask;
-use super::{FreeSpace, Skeleton, SkeletonParameters, Tip};
+use super::medial_axis::medial_axis;
+use super::{FreeSpace, Skeleton, SkeletonOptions, Tip};
 use crate::grid::{Cell, Lattice, Occupancy, OccupancyGrid};
 
 /// No clutter and no closed passage: free space is exactly the free cells.
-fn exact() -> SkeletonParameters {
-    SkeletonParameters { clutter: 0.0, narrowest_passage: 0.0, ..SkeletonParameters::default() }
+fn exact() -> SkeletonOptions {
+    SkeletonOptions { clutter: 0.0, narrowest_passage: 0.0, ..SkeletonOptions::default() }
 }
 
 /// A grid from a drawing, the top row first: `#` occupied, `?` unknown, anything else free.
@@ -122,8 +122,8 @@ fn a_corridor_has_one_line_and_its_tips_say_what_is_there() {
         rows.extend([middle.as_str(); 9]);
         rows.push(wall.as_str());
         let grid = drawn(&rows, 0.2);
-        let parameters = SkeletonParameters::default();
-        let skeleton = Skeleton::new(&grid, &FreeSpace::new(&grid, &parameters), &parameters);
+        let options = SkeletonOptions::default();
+        let skeleton = Skeleton::new(&grid, &FreeSpace::new(&grid, &options), &options);
         assert_eq!(skeleton.edges.len(), 1);
         let mut found: Vec<Tip> = skeleton.nodes.iter().filter_map(|node| node.tip).collect();
         found.sort();
@@ -151,8 +151,8 @@ fn a_ring_is_one_loop_and_clutter_does_not_matter() {
     rows.extend([free.as_str(); 9]);
     rows.push(&outer);
     let grid = drawn(&rows, 0.2);
-    let parameters = SkeletonParameters::default();
-    let skeleton = Skeleton::new(&grid, &FreeSpace::new(&grid, &parameters), &parameters);
+    let options = SkeletonOptions::default();
+    let skeleton = Skeleton::new(&grid, &FreeSpace::new(&grid, &options), &options);
     assert_eq!((skeleton.nodes.len(), skeleton.edges.len()), (1, 1));
     assert_eq!(skeleton.edges[0].nodes[0], skeleton.edges[0].nodes[1]);
 }
@@ -178,8 +178,8 @@ fn a_lobby_around_a_table_is_a_branch_and_as_deep_as_its_far_side() {
     let (door, lobby) = ([[14.0, 2.0], [16.0, 5.0]], [[12.0, 4.4], [18.0, 10.4]]);
     let grid = dug(&[corridor, door, lobby], &[[[14.0, 6.4], [16.0, 8.4]]]);
     let edges = |shallowest_branch| {
-        let parameters = SkeletonParameters { shallowest_branch, ..SkeletonParameters::default() };
-        Skeleton::new(&grid, &FreeSpace::new(&grid, &parameters), &parameters).edges.len()
+        let options = SkeletonOptions { shallowest_branch, ..SkeletonOptions::default() };
+        Skeleton::new(&grid, &FreeSpace::new(&grid, &options), &options).edges.len()
     };
     assert_eq!((edges(1.0), edges(8.0)), (4, 4));
     // Some 3 m in, and 15 m around the table, less 1 m of room at the junction: 9.3 m.
@@ -190,8 +190,8 @@ fn a_lobby_around_a_table_is_a_branch_and_as_deep_as_its_far_side() {
 fn a_piece_of_free_space_that_is_too_small_has_no_axis() {
     let grid = dug(&[[[0.0, 1.0], [30.0, 3.0]], [[4.0, 6.0], [10.0, 8.0]]], &[]);
     let pieces = |shallowest_branch| {
-        let parameters = SkeletonParameters { shallowest_branch, ..SkeletonParameters::default() };
-        Skeleton::new(&grid, &FreeSpace::new(&grid, &parameters), &parameters).edges.len()
+        let options = SkeletonOptions { shallowest_branch, ..SkeletonOptions::default() };
+        Skeleton::new(&grid, &FreeSpace::new(&grid, &options), &options).edges.len()
     };
     assert_eq!((pieces(1.0), pieces(8.0)), (2, 1));
 }

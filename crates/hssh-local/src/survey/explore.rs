@@ -5,7 +5,7 @@ use hssh_metrics::UncertainPose;
 
 use super::error::SurveyError;
 use super::visit::{Survey, Visit};
-use crate::local_star::LocalStar;
+use crate::place::LocalStar;
 
 impl Survey {
     /// The exploration of the visits. Every visit has a star type of its own, for its bearings were

@@ -38,7 +38,7 @@ pub fn survey(
         .collect();
     if stays.is_empty() {
         let metres = track.scans.last().map_or(0.0, |scan| scan.travelled);
-        return Err(SurveyError::NoPlaces { metres, depth: options.place.depth });
+        return Err(SurveyError::NoPlaces { metres, depth: options.place.depth() });
     }
     let visits = visits(joined(stays, options), &track, options, &mut warnings);
     Survey::new(visits, track, options, warnings)

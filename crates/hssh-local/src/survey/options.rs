@@ -32,7 +32,7 @@ impl SurveyOptions {
     /// as long, as it takes to see so far.
     #[must_use]
     pub fn with_depth(mut self, depth: f64) -> Self {
-        self.place.depth = depth;
+        self.place = self.place.with_depth(depth);
         self.hindsight = depth;
         self.window = 2.0 * depth + 12.0;
         self.local_map.side = self.window + 2.0 * depth + 4.0;
@@ -45,7 +45,7 @@ impl Default for SurveyOptions {
         SurveyOptions {
             matching: MatchOptions::default(),
             local_map: LocalMapOptions::default(),
-            place: PlaceOptions::default(),
+            place: PlaceOptions::corridors(),
             look_distance: 0.3,
             hindsight: 8.0,
             window: 28.0,

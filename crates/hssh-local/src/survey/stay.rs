@@ -70,7 +70,7 @@ impl Stay {
     fn is_outside(&self, at: Vector2<f64>) -> bool {
         /// How far beyond, in metres.
         const BEYOND: f64 = 0.5;
-        let gateways = self.sighting.ways.iter().map(|way| Vector2::from(way.gateway.position));
+        let gateways = self.sighting.gateways.iter().map(|gateway| Vector2::from(gateway.position));
         let farthest = gateways.map(|gateway| (gateway - self.sighting.center).norm()).fold(0.0, f64::max);
         (at - self.sighting.center).norm() > farthest + BEYOND
     }

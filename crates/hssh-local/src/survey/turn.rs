@@ -2,7 +2,7 @@
 
 use hssh_topology::Isomorphism;
 
-use crate::local_star::LocalStar;
+use crate::place::LocalStar;
 
 /// By how many radians the frame of `seen` is turned against that of `first`: the mean difference of the
 /// bearings of corresponding ends.

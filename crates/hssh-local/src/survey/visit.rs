@@ -8,8 +8,8 @@ use super::error::{SurveyError, SurveyWarning};
 use super::options::SurveyOptions;
 use super::stay::Stay;
 use crate::grid::OccupancyGrid;
-use crate::local_star::{LocalStar, PlaceParameters};
 use crate::matching::Track;
+use crate::place::LocalStar;
 
 /// One visit to a place.
 #[derive(Clone, PartialEq, Debug)]
@@ -92,11 +92,6 @@ pub(super) fn visits(
     options: &SurveyOptions,
     warnings: &mut Vec<SurveyWarning>,
 ) -> Vec<Visit> {
-    let parameters = PlaceParameters {
-        straight: options.place.straight,
-        aligned: options.place.aligned,
-        ..PlaceParameters::default()
-    };
     let last_scan = track.scans.len() - 1;
     let borders: Vec<(usize, usize)> = (0..stays.len())
         .map(|index| {
@@ -109,8 +104,7 @@ pub(super) fn visits(
     let mut visits = Vec::new();
     for (index, (stay, (since, until))) in stays.into_iter().zip(borders).enumerate() {
         let center = stay.sighting.center;
-        let gateways: Vec<_> = stay.sighting.ways.iter().map(|way| way.gateway).collect();
-        let Some(star) = LocalStar::new(center.into(), &gateways, &parameters) else { continue };
+        let Some(star) = stay.sighting.star(&options.place) else { continue };
         let mut end_toward = |at: Option<Vector2<f64>>, verb: &'static str| {
             let (end, offset) = nearest_end(&star, center, at?)?;
             let width = star.gateways[end.index()].map_or(0.0, |gateway| gateway.width);

@@ -25,13 +25,14 @@ fn crossing(ways: &[(f64, f64)]) -> OccupancyGrid {
 }
 
 fn seen(ways: &[(f64, f64)], from: [f64; 2]) -> Sighting {
-    sight(&crossing(ways), from.into(), &PlaceOptions::default()).unwrap()
+    sight(&crossing(ways), from.into(), &PlaceOptions::corridors()).unwrap()
 }
 
 /// The bearings of the ways out in degrees from 20° less than `first` on, in order.
 fn bearings(sighting: &Sighting, first: f64) -> Vec<f64> {
     let from_first = |bearing: f64| (bearing.to_degrees() - first + 20.0).rem_euclid(360.0) + first - 20.0;
-    let mut bearings: Vec<f64> = sighting.ways.iter().map(|way| from_first(way.gateway.bearing)).collect();
+    let mut bearings: Vec<f64> =
+        sighting.gateways.iter().map(|gateway| from_first(gateway.bearing)).collect();
     bearings.sort_by(f64::total_cmp);
     bearings
 }
@@ -67,15 +68,15 @@ fn a_corridor_is_no_place_and_neither_are_its_rooms() {
 
 #[test]
 fn gateways_are_as_wide_as_the_corridors() {
-    for way in seen(&[(0.0, 12.5), (90.0, 12.5), (180.0, 12.5)], [0.0, 0.0]).ways {
-        assert!((way.gateway.width - 2.0).abs() < 0.3, "{:?}", way.gateway);
+    for gateway in seen(&[(0.0, 12.5), (90.0, 12.5), (180.0, 12.5)], [0.0, 0.0]).gateways {
+        assert!((gateway.width - 2.0).abs() < 0.3, "{gateway:?}");
     }
 }
 
 #[test]
 fn in_a_wall_there_is_nothing_to_see() {
     let grid = crossing(&[(0.0, 12.5)]);
-    assert_eq!(sight(&grid, vector![-9.0, 9.0], &PlaceOptions::default()), None);
+    assert_eq!(sight(&grid, vector![-9.0, 9.0], &PlaceOptions::corridors()), None);
 }
 
 #[test]
@@ -109,5 +110,5 @@ fn a_dead_end_is_a_place_where_its_walls_were_seen() {
             grid.set(cell, Occupancy::Unknown);
         }
     }
-    assert!(!sight(&grid, vector![1.0, 0.0], &PlaceOptions::default()).unwrap().is_place);
+    assert!(!sight(&grid, vector![1.0, 0.0], &PlaceOptions::corridors()).unwrap().is_place);
 }

@@ -5,6 +5,7 @@
 
 mod agreement;
 mod cases;
+mod certificates;
 mod distinction;
 mod found;
 mod limits;

@@ -37,7 +37,7 @@ pub(crate) fn matches(seen: &Star, kept: &Star, rotation: usize) -> bool {
     n == kept.ends().len()
         && (0..n).all(|end| {
             let (a, b) = (&seen.ends()[end], &kept.ends()[(end + rotation) % n]);
-            a.travel == b.travel
+            a.passability == b.passability
                 && a.label == b.label
                 && (opposite(seen, end) + rotation) % n == opposite(kept, (end + rotation) % n)
         })

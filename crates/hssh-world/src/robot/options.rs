@@ -1,7 +1,7 @@
 //! The numbers that a simulated robot goes by.
 
 use hssh_causal::control::Handling;
-use hssh_local::{PlaceOptions, PlaceParameters, SurveyOptions};
+use hssh_local::{PlaceOptions, SurveyOptions};
 
 use super::laser::Laser;
 use super::odometer::Odometer;
@@ -28,7 +28,7 @@ pub struct RobotOptions {
     /// How it makes its local map, and what it takes for a place.
     pub outlook: SurveyOptions,
     /// What the places of the whole map are, which the robot does not see: its [`Strategy`](super::Strategy) does.
-    pub places: PlaceParameters,
+    pub places: PlaceOptions,
     /// A control law that does not end within so many seconds has failed.
     pub patience: f64,
 }
@@ -36,7 +36,7 @@ pub struct RobotOptions {
 impl Default for RobotOptions {
     fn default() -> Self {
         // A robot centers in a place when it is in it, and not when it sees it coming.
-        let place = PlaceOptions { arrival: 1.5, ..PlaceOptions::default() };
+        let place = PlaceOptions { arrival: 1.5, ..PlaceOptions::corridors() };
         RobotOptions {
             handling: Handling::default(),
             laser: Laser::default(),
@@ -47,7 +47,7 @@ impl Default for RobotOptions {
             scan_turn: 0.2,
             look_distance: 0.4,
             outlook: SurveyOptions { place, ..SurveyOptions::default() },
-            places: PlaceParameters::default(),
+            places: PlaceOptions::default(),
             patience: 120.0,
         }
     }

@@ -96,8 +96,7 @@ impl Outlook {
 
     /// The gateways of the neighborhood, in the frame of the model.
     pub(super) fn gateways(&self) -> impl Iterator<Item = &Gateway> {
-        let ways = self.here.as_ref().map_or(&[][..], |here| &here.sighting.ways);
-        ways.iter().map(|way| &way.gateway)
+        self.here.iter().flat_map(|here| &here.sighting.gateways)
     }
 
     /// The neighborhood as it looks from where the robot is.

@@ -151,7 +151,7 @@ impl<'a> Run<'a> {
     /// How wide the corridor is that the robot is in, in metres.
     fn corridor_width(&self) -> f64 {
         let sighting = self.outlook.sighting();
-        let width = sighting.and_then(|found| found.ways.first().map(|way| way.gateway.width));
+        let width = sighting.and_then(|found| found.gateways.first().map(|gateway| gateway.width));
         width.unwrap_or(f64::INFINITY)
     }
 

@@ -42,7 +42,7 @@ fn robot(arguments: &SimulateArguments) -> RobotOptions {
     let mut outlook = arguments.places.choice().along_logs();
     outlook.place.arrival = usual.outlook.place.arrival;
     // Noise makes passages look narrower; the robot goes where it fits.
-    outlook.place.narrowest_way = usual.outlook.place.narrowest_way;
+    outlook.place.skeleton.narrowest_passage = usual.outlook.place.skeleton.narrowest_passage;
     RobotOptions {
         travels: arguments.travels,
         places: arguments.places.choice().in_grids(UnknownSpace::Wall),

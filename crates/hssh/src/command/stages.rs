@@ -4,8 +4,13 @@ use std::path::{Path, PathBuf};
 
 use hssh_draw::{GridPicture, TRUE_WAY, draw_grid};
 use hssh_local::{
+<<<<<<< HEAD
     FreeSpace, LaserLog, LocalMapOptions, OccupancyGrid, Skeleton, SkeletonParameters, Survey, Visit,
     global_map, write_png,
+=======
+    FreeSpace, LaserLog, LatticeError, LocalMapOptions, OccupancyGrid, Skeleton, SkeletonOptions, Survey,
+    Visit, global_map, write_png,
+>>>>>>> local
 };
 use hssh_metrics::Pose;
 
@@ -41,7 +46,7 @@ pub(crate) fn draw_survey(log: &LaserLog, survey: &Survey, folder: &Path) -> Res
     for (number, visit) in survey.visits.iter().enumerate() {
         let file = folder.join(format!("3-visit-{:03}", number + 1));
         let robot = survey.track.scans[visit.reference].pose;
-        let parameters = SkeletonParameters::default();
+        let parameters = SkeletonOptions::default();
         let skeleton = Skeleton::new(&visit.grid, &FreeSpace::new(&visit.grid, &parameters), &parameters);
         let picture = GridPicture {
             skeleton: Some(&skeleton),

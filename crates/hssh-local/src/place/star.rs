@@ -5,12 +5,24 @@ use std::f64::consts::{PI, TAU};
 use hssh_metrics::wrap_angle;
 use hssh_topology::{Olp, OlpName, Passability, Sign, Star, StarEnd};
 
-use super::PlaceParameters;
 use super::local_path::continuations;
-use crate::gateway::Gateway;
+use super::{Gateway, PlaceOptions};
 
 /// Two ends of a star differ in bearing by at least this much, in radians.
 const APART: f64 = 1e-6;
+
+/// What a place looks like by its gateways.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
+pub enum PlaceKind {
+    /// Two gateways that continue one another: a corridor, no place.
+    Passage,
+    /// One gateway.
+    DeadEnd,
+    /// Two gateways that do not continue one another.
+    Corner,
+    /// Three gateways or more.
+    Junction,
+}
 
 /// A star together with what its ends are in the grid; the lists have one entry per end, clockwise as
 /// the star is.
@@ -37,8 +49,8 @@ impl LocalStar {
     /// The star of gateways around `center`; `None` if there are none. Every gateway is one end; the
     /// other end of its local path is the gateway that continues it, or closed.
     #[must_use]
-    pub fn new(center: [f64; 2], gateways: &[Gateway], parameters: &PlaceParameters) -> Option<Self> {
-        let other = continuations(gateways, parameters);
+    pub fn new(center: [f64; 2], gateways: &[Gateway], options: &PlaceOptions) -> Option<Self> {
+        let other = continuations(gateways, options);
         Self::with_paths(gateways, &directions(center, gateways), &other)
     }
 
@@ -66,6 +78,17 @@ impl LocalStar {
         let star = Star::new(named(&ends)).ok()?;
         let gateways = ends.iter().map(|end| end.gateway.map(|index| gateways[index])).collect();
         Some(LocalStar { star, bearings: spread(ends.iter().map(|end| end.bearing).collect()), gateways })
+    }
+
+    /// What a place with this star is.
+    #[must_use]
+    pub fn kind(&self) -> PlaceKind {
+        match (self.gateways().count(), self.star.degree()) {
+            (1, _) => PlaceKind::DeadEnd,
+            (2, 2) => PlaceKind::Passage,
+            (2, _) => PlaceKind::Corner,
+            _ => PlaceKind::Junction,
+        }
     }
 
     /// The gateways, clockwise.

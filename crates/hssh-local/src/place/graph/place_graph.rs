@@ -4,41 +4,18 @@
 use hssh_topology::Olp;
 
 use super::candidate::Candidates;
-use super::connection::{Connection, OpenEnd, Resolved, connect};
+use super::connection::{OpenEnd, PlaceConnection, Resolved, connect};
+use super::parts::{Parts, PlaceNumber, PlacedSection};
 use super::section::{Section, Way, sections, ways};
-use super::{LocalStar, PlaceParameters};
-use crate::gateway::{Gateway, constrictions, gateway_on};
 use crate::grid::{Occupancy, OccupancyGrid};
+use crate::place::constriction::constrictions;
+use crate::place::gateway::gateway_on;
+use crate::place::{Gateway, LocalStar, PlaceKind, PlaceOptions};
 use crate::skeleton::{AxisPoint, FreeSpace, Skeleton};
-
-/// What a place looks like by its gateways.
-#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
-pub enum PlaceKind {
-    /// Two gateways that continue one another: a corridor, no place.
-    Passage,
-    /// One gateway.
-    DeadEnd,
-    /// Two gateways that do not continue one another.
-    Corner,
-    /// Three gateways or more.
-    Junction,
-}
-
-/// A place of a grid: an index into [`PlaceGraph::places`].
-#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
-pub struct PlaceNumber(pub u32);
-
-impl PlaceNumber {
-    /// The place as an index.
-    #[must_use]
-    pub fn index(self) -> usize {
-        self.0 as usize
-    }
-}
 
 /// A place in a grid.
 #[derive(Clone, PartialEq, Debug)]
-pub struct Place {
+pub struct GridPlace {
     /// What it looks like; never a passage.
     pub kind: PlaceKind,
     /// The point of the medial axis with most room, in metres.
@@ -57,33 +34,15 @@ pub struct PlaceGraph {
     /// Its medial axis.
     pub skeleton: Skeleton,
     /// The places: junctions in the order of their cells, then corners.
-    pub places: Vec<Place>,
+    pub places: Vec<GridPlace>,
     /// Which gateways lead to one another.
-    pub connections: Vec<Connection>,
+    pub connections: Vec<PlaceConnection>,
     /// Which gateways lead to where the grid shows no more.
     pub open_ends: Vec<OpenEnd>,
     /// Everywhere that the axis passes a narrow point, doors above all, whether or not it is the gateway
     /// of a place.
     pub constrictions: Vec<Gateway>,
     pub(super) parts: Parts,
-}
-
-/// Which part of the axis belongs to which place.
-#[derive(Clone, Debug, Default)]
-pub(super) struct Parts {
-    /// The place each candidate became.
-    pub(super) sections: Vec<PlacedSection>,
-    /// The place of each edge that lies inside one.
-    pub(super) inner: Vec<Option<PlaceNumber>>,
-}
-
-/// A section with what belongs to the places at its ends.
-#[derive(Clone, Debug)]
-pub(super) struct PlacedSection {
-    pub(super) edge: usize,
-    pub(super) range: [usize; 2],
-    /// For each end the place there and the position in the edge's points of the gateway to it.
-    pub(super) ends: [Option<(PlaceNumber, usize)>; 2],
 }
 
 /// Why a grid has no places.
@@ -123,16 +82,16 @@ impl PlaceGraph {
     ///
     /// # Errors
     /// If nothing of the grid is known or free, or if there is no obstacle or no room.
-    pub fn new(grid: &OccupancyGrid, parameters: &PlaceParameters) -> Result<Self, PlaceGraphError> {
-        let free = FreeSpace::new(grid, &parameters.skeleton);
+    pub fn new(grid: &OccupancyGrid, options: &PlaceOptions) -> Result<Self, PlaceGraphError> {
+        let free = FreeSpace::new(grid, &options.skeleton);
         if free.is_empty() {
-            return Err(reason(grid, &free, parameters));
+            return Err(reason(grid, &free, options));
         }
-        let skeleton = Skeleton::new(grid, &free, &parameters.skeleton);
-        let candidates = Candidates::new(&skeleton, parameters);
+        let skeleton = Skeleton::new(grid, &free, &options.skeleton);
+        let candidates = Candidates::new(&skeleton, options);
         let sections = sections(&skeleton, &candidates);
         let all_ways = ways(&sections, candidates.all.len());
-        let constrictions = constrictions(&skeleton, free.field(), &parameters.gateway);
+        let constrictions = constrictions(&skeleton, free.field(), &options.gateway);
         let mut graph = PlaceGraph {
             free,
             skeleton,
@@ -145,8 +104,8 @@ impl PlaceGraph {
         graph.parts.sections = sections.iter().map(PlacedSection::unplaced).collect();
         let mut resolved = Vec::new();
         for (candidate, ways) in candidates.all.iter().zip(all_ways) {
-            let start = if candidate.is_tip { 1.0 } else { parameters.gateway.nearest };
-            resolved.push(graph.resolve(candidate.center, start, ways, &sections, parameters));
+            let start = if candidate.is_tip { 1.0 } else { options.gateway.nearest };
+            resolved.push(graph.resolve(candidate.center, start, ways, &sections, options));
         }
         let inner = |(index, &is_inner): (usize, &bool)| {
             let node = graph.skeleton.edges[index].nodes[0];
@@ -160,7 +119,7 @@ impl PlaceGraph {
 
     /// A place.
     #[must_use]
-    pub fn place(&self, place: PlaceNumber) -> &Place {
+    pub fn place(&self, place: PlaceNumber) -> &GridPlace {
         &self.places[place.index()]
     }
 
@@ -171,7 +130,7 @@ impl PlaceGraph {
         start: f64,
         ways: Vec<Way>,
         sections: &[Section],
-        parameters: &PlaceParameters,
+        options: &PlaceOptions,
     ) -> Resolved {
         let mut gateways = Vec::new();
         let mut positions = Vec::new();
@@ -179,12 +138,12 @@ impl PlaceGraph {
             let points = way.points(sections, &self.skeleton);
             let start = start * center.clearance;
             let (at, gateway) =
-                gateway_on(&points, center.clearance, start, self.free.field(), &parameters.gateway);
+                gateway_on(&points, center.clearance, start, self.free.field(), &options.gateway);
             gateways.push(gateway);
             positions.push(at);
         }
-        let star = LocalStar::new(center.point, &gateways, parameters);
-        let place = star.and_then(|star| Place::new(center, star));
+        let star = LocalStar::new(center.point, &gateways, options);
+        let place = star.and_then(|star| GridPlace::new(center, star));
         let Some(place) = place else { return Resolved { place: None, ways, olps: Vec::new() } };
         let number = PlaceNumber(self.places.len() as u32);
         for (way, at) in ways.iter().zip(positions) {
@@ -196,34 +155,17 @@ impl PlaceGraph {
     }
 }
 
-impl Place {
+impl GridPlace {
     /// The place with this star, unless it is a mere passage.
     fn new(center: AxisPoint, star: LocalStar) -> Option<Self> {
-        let kind = match (star.gateways().count(), star.star.degree()) {
-            (1, _) => PlaceKind::DeadEnd,
-            (2, 2) => return None,
-            (2, _) => PlaceKind::Corner,
-            _ => PlaceKind::Junction,
-        };
-        Some(Place { kind, center: center.point, clearance: center.clearance, star })
-    }
-}
-
-impl PlacedSection {
-    fn unplaced(section: &Section) -> Self {
-        PlacedSection { edge: section.edge.index(), range: section.range, ends: [None; 2] }
-    }
-
-    /// The first points of a way, up to its gateway, belong to a place.
-    fn claim(&mut self, way: Way, place: PlaceNumber, gateway: usize) {
-        let [first, last] = self.range;
-        let at = if way.is_backward { last - gateway } else { first + gateway };
-        self.ends[usize::from(way.is_backward)] = Some((place, at));
+        let kind = star.kind();
+        let place = GridPlace { kind, center: center.point, clearance: center.clearance, star };
+        (kind != PlaceKind::Passage).then_some(place)
     }
 }
 
 /// Why free space is empty.
-fn reason(grid: &OccupancyGrid, free: &FreeSpace, parameters: &PlaceParameters) -> PlaceGraphError {
+fn reason(grid: &OccupancyGrid, free: &FreeSpace, options: &PlaceOptions) -> PlaceGraphError {
     let cells = grid.cells().len();
     if grid.count(Occupancy::Unknown) == cells {
         PlaceGraphError::AllUnknown { cells }
@@ -232,7 +174,7 @@ fn reason(grid: &OccupancyGrid, free: &FreeSpace, parameters: &PlaceParameters) 
     } else if free.field().squared_cells(grid.lattice().cell(0)).is_none() {
         PlaceGraphError::NoObstacle
     } else {
-        let narrowest = parameters.skeleton.narrowest_passage;
+        let narrowest = options.skeleton.narrowest_passage;
         PlaceGraphError::TooNarrow { narrowest, resolution: grid.lattice().resolution() }
     }
 }

@@ -1,30 +1,10 @@
 //! Doors: constrictions behind which there is a previously obscured area (section 2.2.2, second definition of
 //! gateways).
 
-use super::Gateway;
+use super::{DoorOptions, Gateway};
 use crate::grid::{Cell, Occupancy, OccupancyGrid};
 
-/// What makes a constriction a door; lengths in metres.
-#[derive(Clone, Copy, PartialEq, Debug)]
-pub struct DoorParameters {
-    /// The widest door. Default: 1.1 m.
-    pub widest: f64,
-    /// Points so far before and behind the constriction are compared. Default: 1.0 m.
-    pub step: f64,
-    /// What is in sight is counted as far as this. Default: 6.0 m.
-    pub reach: f64,
-    /// At least so many square metres are in sight from one of the two points only: a gap between two desks
-    /// hides little of the room that both are in. Default: 20 m².
-    pub least_hidden: f64,
-}
-
-impl Default for DoorParameters {
-    fn default() -> Self {
-        DoorParameters { widest: 1.1, step: 1.0, reach: 6.0, least_hidden: 20.0 }
-    }
-}
-
-impl DoorParameters {
+impl DoorOptions {
     /// Whether a constriction that hides so many square metres is a door.
     #[must_use]
     pub fn accept(&self, constriction: &Gateway, hidden_area: f64) -> bool {
@@ -34,24 +14,21 @@ impl DoorParameters {
 
 /// Which of some constrictions are doors.
 #[must_use]
-pub fn doors(grid: &OccupancyGrid, constrictions: &[Gateway], parameters: &DoorParameters) -> Vec<Gateway> {
-    let is_door = |gateway: &&Gateway| parameters.accept(gateway, hidden_area(grid, gateway, parameters));
+pub fn doors(grid: &OccupancyGrid, constrictions: &[Gateway], options: &DoorOptions) -> Vec<Gateway> {
+    let is_door = |gateway: &&Gateway| options.accept(gateway, hidden_area(grid, gateway, options));
     constrictions.iter().filter(is_door).copied().collect()
 }
 
 /// How much a gateway hides: the square metres that are in sight from a point before it or from one behind it, but
 /// not from both.
 #[must_use]
-pub fn hidden_area(grid: &OccupancyGrid, gateway: &Gateway, parameters: &DoorParameters) -> f64 {
+pub fn hidden_area(grid: &OccupancyGrid, gateway: &Gateway, options: &DoorOptions) -> f64 {
     let (sin, cos) = gateway.bearing.sin_cos();
     let at = |step: f64| [gateway.position[0] + step * cos, gateway.position[1] + step * sin];
     let in_sight = |step: f64| {
-        grid.lattice()
-            .cell_at(at(step))
-            .map(|from| in_sight(grid, from, parameters.reach))
-            .unwrap_or_default()
+        grid.lattice().cell_at(at(step)).map(|from| in_sight(grid, from, options.reach)).unwrap_or_default()
     };
-    let (before, behind) = (in_sight(-parameters.step), in_sight(parameters.step));
+    let (before, behind) = (in_sight(-options.step), in_sight(options.step));
     let shared = before.iter().filter(|cell| behind.binary_search(cell).is_ok()).count();
     let hidden = before.len() + behind.len() - 2 * shared;
     hidden as f64 * grid.lattice().resolution().powi(2)
@@ -104,19 +81,19 @@ mod tests {
     fn a_wall_hides_more_than_desks_do() {
         let gateway =
             Gateway { position: [0.0, 0.0], bearing: 0.0, width: 1.0, line: [[0.0, 0.5], [0.0, -0.5]] };
-        let parameters = DoorParameters::default();
+        let options = DoorOptions::default();
         // The rooms are 5 m by 5.2 m. From 1 m before the middle of a wall of 0.2 m, the far edges of the opening, at
         // 1.1 m, limit what is seen through it: it is 1/1.1 as wide as it is far away, up to 5.2 m at 5.72 m, and as
         // wide from there on to the reach of 6 m.
         let seen_through = (5.72_f64.powi(2) - 1.1_f64.powi(2)) / 2.2 + 0.28 * 5.2;
         let expected = 2.0 * (26.0 - seen_through);
-        let hidden = hidden_area(&rooms(true), &gateway, &parameters);
+        let hidden = hidden_area(&rooms(true), &gateway, &options);
         assert!((hidden - expected).abs() < 1.5, "{hidden} is not about {expected}");
-        let between_desks = hidden_area(&rooms(false), &gateway, &parameters);
+        let between_desks = hidden_area(&rooms(false), &gateway, &options);
         assert!(between_desks < 0.7 * hidden, "{between_desks}");
         let least_hidden = (hidden + between_desks) / 2.0;
         let found =
-            |with_wall| doors(&rooms(with_wall), &[gateway], &DoorParameters { least_hidden, ..parameters });
+            |with_wall| doors(&rooms(with_wall), &[gateway], &DoorOptions { least_hidden, ..options });
         assert_eq!((found(true).len(), found(false).len()), (1, 0));
     }
 }

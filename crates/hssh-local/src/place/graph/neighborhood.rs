@@ -1,9 +1,10 @@
 //! The neighborhood of the robot: the place it is in, or the passage.
 
-use super::place_graph::PlacedSection;
-use super::{LocalStar, PlaceGraph, PlaceGraphError, PlaceKind, PlaceNumber, PlaceParameters};
-use crate::gateway::{Gateway, gateway_on};
+use super::parts::{PlaceNumber, PlacedSection};
+use super::place_graph::{PlaceGraph, PlaceGraphError};
 use crate::grid::OccupancyGrid;
+use crate::place::gateway::gateway_on;
+use crate::place::{Gateway, LocalStar, PlaceKind, PlaceOptions};
 use crate::skeleton::{AxisPoint, distance};
 
 /// What is around the robot.
@@ -54,10 +55,10 @@ struct OnAxis {
 pub fn neighborhood(
     grid: &OccupancyGrid,
     robot: [f64; 2],
-    parameters: &PlaceParameters,
+    options: &PlaceOptions,
 ) -> Result<Neighborhood, NeighborhoodError> {
     grid.lattice().cell_at(robot).ok_or(NeighborhoodError::OffGrid(robot))?;
-    let graph = PlaceGraph::new(grid, parameters)?;
+    let graph = PlaceGraph::new(grid, options)?;
     let on_axis = nearest_on_axis(&graph, grid, robot).ok_or(NeighborhoodError::Enclosed(robot))?;
     if let Some(number) = place_around(&graph, on_axis, robot) {
         let place = graph.place(number).clone();
@@ -71,7 +72,7 @@ pub fn neighborhood(
         });
     }
     let point = graph.skeleton.edges[on_axis.edge].points[on_axis.at];
-    let star = passage(&graph, on_axis, parameters).ok_or(NeighborhoodError::Enclosed(robot))?;
+    let star = passage(&graph, on_axis, options).ok_or(NeighborhoodError::Enclosed(robot))?;
     Ok(Neighborhood {
         kind: PlaceKind::Passage,
         center: point.point,
@@ -130,14 +131,13 @@ fn section_of(graph: &PlaceGraph, on_axis: OnAxis) -> Option<&PlacedSection> {
 }
 
 /// The star of a passage: the two ways along the axis from a point.
-fn passage(graph: &PlaceGraph, on_axis: OnAxis, parameters: &PlaceParameters) -> Option<LocalStar> {
+fn passage(graph: &PlaceGraph, on_axis: OnAxis, options: &PlaceOptions) -> Option<LocalStar> {
     let points = &graph.skeleton.edges[on_axis.edge].points;
     let onward = &points[on_axis.at..];
     let back: Vec<AxisPoint> = points[..=on_axis.at].iter().rev().copied().collect();
     let clearance = points[on_axis.at].clearance;
     let gateway = |way: &[AxisPoint]| {
-        (way.len() > 1)
-            .then(|| gateway_on(way, clearance, clearance, graph.free.field(), &parameters.gateway).1)
+        (way.len() > 1).then(|| gateway_on(way, clearance, clearance, graph.free.field(), &options.gateway).1)
     };
     match [gateway(onward), gateway(&back)] {
         [Some(onward), Some(back)] => LocalStar::passage([onward, back]),

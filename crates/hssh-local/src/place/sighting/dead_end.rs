@@ -2,8 +2,8 @@
 
 use nalgebra::{Vector2, vector};
 
-use super::options::PlaceOptions;
 use crate::grid::{Cell, Lattice, Occupancy, OccupancyGrid};
+use crate::place::PlaceOptions;
 use crate::skeleton::FreeSpace;
 
 /// A point is about as wide as the widest one if it has this part of its clearance.
@@ -25,7 +25,7 @@ pub(super) fn dead_end(
             && free.field().nearest(cell).is_some_and(|obstacle| grid.get(obstacle) == Occupancy::Unknown)
     };
     let opening = pocket.iter().filter(is_open).count() as f64 * lattice.resolution();
-    if opening >= options.narrowest_way {
+    if opening >= options.skeleton.narrowest_passage {
         return None;
     }
     let room = |cell: Cell| free.field().clearance(cell);

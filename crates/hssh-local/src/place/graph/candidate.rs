@@ -1,7 +1,7 @@
 //! Where places may be: junctions of the medial axis, its tips at walls, and its corners.
 
-use super::PlaceParameters;
 use super::bend::bends;
+use crate::place::PlaceOptions;
 use crate::skeleton::{AxisPoint, EdgeId, NodeId, Skeleton, Tip, distance, length};
 
 /// What may be a place, before it is known how its gateways lie.
@@ -24,9 +24,9 @@ pub(super) struct Candidates {
 }
 
 impl Candidates {
-    pub(super) fn new(skeleton: &Skeleton, parameters: &PlaceParameters) -> Self {
+    pub(super) fn new(skeleton: &Skeleton, options: &PlaceOptions) -> Self {
         let lengths: Vec<f64> = skeleton.edges.iter().map(|edge| length(&edge.points)).collect();
-        let group = groups(skeleton, &lengths, parameters);
+        let group = groups(skeleton, &lengths, options);
         let mut found = Candidates {
             all: Vec::new(),
             at_node: vec![None; skeleton.nodes.len()],
@@ -38,7 +38,7 @@ impl Candidates {
             found.add_nodes(skeleton, &members);
         }
         for (index, length) in lengths.iter().enumerate() {
-            found.add_edge(skeleton, EdgeId(index as u32), *length, parameters);
+            found.add_edge(skeleton, EdgeId(index as u32), *length, options);
         }
         found
     }
@@ -59,11 +59,11 @@ impl Candidates {
 
     /// Makes candidates of the corners of an edge, and sees whether the edge lies inside one place: it
     /// then leads from there to there and is too short to go around more than something in its middle.
-    fn add_edge(&mut self, skeleton: &Skeleton, id: EdgeId, length: f64, parameters: &PlaceParameters) {
+    fn add_edge(&mut self, skeleton: &Skeleton, id: EdgeId, length: f64, options: &PlaceOptions) {
         let edge = skeleton.edge(id);
         let [from, to] = edge.nodes.map(|node| self.at_node[node.index()]);
         let room = |place: Option<usize>| place.map_or(0.0, |place| self.all[place].center.clearance);
-        let is_inner = from.is_some() && from == to && length <= 4.0 * parameters.one_place * room(from);
+        let is_inner = from.is_some() && from == to && length <= 4.0 * options.one_place * room(from);
         self.is_inner.push(is_inner);
         if is_inner {
             return;
@@ -71,10 +71,9 @@ impl Candidates {
         let is_apart = |at: &usize| {
             let from_start = distance(edge.points[*at].point, edge.points[0].point);
             let from_end = distance(edge.points[*at].point, edge.points[edge.points.len() - 1].point);
-            from_start > parameters.one_place * room(from) && from_end > parameters.one_place * room(to)
+            from_start > options.one_place * room(from) && from_end > options.one_place * room(to)
         };
-        let corners: Vec<usize> =
-            bends(&edge.points, parameters.corner).into_iter().filter(is_apart).collect();
+        let corners: Vec<usize> = bends(&edge.points, options.corner).into_iter().filter(is_apart).collect();
         for at in corners {
             self.on_edge[id.index()].push((at, self.all.len()));
             self.all.push(Candidate { center: edge.points[at], is_tip: false });
@@ -83,12 +82,12 @@ impl Candidates {
 }
 
 /// For each node the first node of its group: junctions that lie in the free disc of one another.
-fn groups(skeleton: &Skeleton, lengths: &[f64], parameters: &PlaceParameters) -> Vec<usize> {
+fn groups(skeleton: &Skeleton, lengths: &[f64], options: &PlaceOptions) -> Vec<usize> {
     let mut group: Vec<usize> = (0..skeleton.nodes.len()).collect();
     for (edge, &length) in skeleton.edges.iter().zip(lengths) {
         let is_junction = |node: NodeId| skeleton.node(node).tip.is_none();
         let room = edge.nodes.map(|node| skeleton.node(node).at.clearance).into_iter().fold(0.0, f64::max);
-        if !edge.nodes.into_iter().all(is_junction) || length > parameters.one_place * room {
+        if !edge.nodes.into_iter().all(is_junction) || length > options.one_place * room {
             continue;
         }
         let [a, b] = edge.nodes.map(|node| group[node.index()]);

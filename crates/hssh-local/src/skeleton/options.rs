@@ -1,7 +1,9 @@
 //! What counts as free space and which branches of its medial axis matter.
 
+use serde::{Deserialize, Serialize};
+
 /// What cells are that were never seen.
-#[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Default, Serialize, Deserialize)]
 pub enum UnknownSpace {
     /// Obstacles, the default: a robot must not travel where it has not looked, and the axis then stays
     /// within what was seen. An end of the axis at unknown cells is still told from one at a wall
@@ -13,8 +15,9 @@ pub enum UnknownSpace {
 }
 
 /// How the medial axis is found; lengths in metres, angles in radians.
-#[derive(Clone, Copy, PartialEq, Debug)]
-pub struct SkeletonParameters {
+#[derive(Clone, Copy, PartialEq, Debug, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct SkeletonOptions {
     /// What unknown cells are. Default: walls.
     pub unknown: UnknownSpace,
     /// Obstacles no longer and no wider than this are clutter and are ignored, unless they touch the
@@ -31,9 +34,9 @@ pub struct SkeletonParameters {
     pub shallowest_branch: f64,
 }
 
-impl Default for SkeletonParameters {
+impl Default for SkeletonOptions {
     fn default() -> Self {
-        SkeletonParameters {
+        SkeletonOptions {
             unknown: UnknownSpace::Wall,
             clutter: 0.3,
             narrowest_passage: 0.6,

@@ -5,8 +5,9 @@ use std::f64::consts::{FRAC_PI_2, PI, TAU};
 use hssh_metrics::wrap_angle;
 use hssh_topology::{Isomorphism, Star};
 
-use super::{NeighborhoodError, PlaceGraph, PlaceGraphError, PlaceKind, PlaceParameters, neighborhood};
+use super::{NeighborhoodError, PlaceGraph, PlaceGraphError, neighborhood};
 use crate::grid::{Lattice, Occupancy, OccupancyGrid};
+use crate::place::{PlaceKind, PlaceOptions};
 
 /// Free space made of corridors 2 m wide that leave the origin in the given directions (degrees), in a
 /// disc of `room` metres, on a grid of 14 m turned by `turn` radians; all else is wall.
@@ -30,7 +31,7 @@ fn check(directions: &[f64], room: f64, kind: PlaceKind, star: &str) {
     for step in 0..24 {
         let turn = f64::from(step) * TAU / 24.0 + 0.03;
         let grid = corridors(directions, room, turn);
-        let found = neighborhood(&grid, [0.1, -0.1], &PlaceParameters::default()).unwrap();
+        let found = neighborhood(&grid, [0.1, -0.1], &PlaceOptions::default()).unwrap();
         let context = format!("{directions:?} turned by {turn}: {}", found.star.star);
         assert_eq!(found.kind, kind, "{context}");
         assert!(Isomorphism::all(&expected, &found.star.star).next().is_some(), "{context}");
@@ -89,7 +90,7 @@ fn a_ring_of_corridors_has_four_corners_that_lead_to_one_another() {
         if is_free { Occupancy::Free } else { Occupancy::Occupied }
     });
     let grid = OccupancyGrid::new(lattice, cells.collect()).unwrap();
-    let graph = PlaceGraph::new(&grid, &PlaceParameters::default()).unwrap();
+    let graph = PlaceGraph::new(&grid, &PlaceOptions::default()).unwrap();
     assert_eq!(graph.places.iter().map(|place| place.kind).collect::<Vec<_>>(), [PlaceKind::Corner; 4]);
     assert_eq!((graph.connections.len(), graph.open_ends.len()), (4, 0));
     for connection in &graph.connections {
@@ -103,7 +104,7 @@ fn a_ring_of_corridors_has_four_corners_that_lead_to_one_another() {
 fn a_grid_without_places_says_why() {
     let lattice = Lattice::new(20, 20, 0.1, [0.0, 0.0]).unwrap();
     let filled = |occupancy| OccupancyGrid::filled(lattice, occupancy);
-    let error = |grid: &OccupancyGrid| PlaceGraph::new(grid, &PlaceParameters::default()).unwrap_err();
+    let error = |grid: &OccupancyGrid| PlaceGraph::new(grid, &PlaceOptions::default()).unwrap_err();
     assert_eq!(error(&filled(Occupancy::Unknown)), PlaceGraphError::AllUnknown { cells: 400 });
     assert_eq!(error(&filled(Occupancy::Occupied)), PlaceGraphError::NothingFree { cells: 400 });
     assert_eq!(error(&filled(Occupancy::Free)), PlaceGraphError::NoObstacle);
@@ -111,6 +112,6 @@ fn a_grid_without_places_says_why() {
     narrow.set(lattice.cell(30), Occupancy::Free);
     assert_eq!(error(&narrow), PlaceGraphError::TooNarrow { narrowest: 0.6, resolution: 0.1 });
     let grid = corridors(&[0.0], 0.0, 0.0);
-    let outside = neighborhood(&grid, [99.0, 0.0], &PlaceParameters::default()).unwrap_err();
+    let outside = neighborhood(&grid, [99.0, 0.0], &PlaceOptions::default()).unwrap_err();
     assert_eq!(outside, NeighborhoodError::OffGrid([99.0, 0.0]));
 }

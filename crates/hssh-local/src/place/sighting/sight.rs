@@ -2,16 +2,16 @@
 
 use std::collections::BTreeSet;
 
-use hssh_metrics::wrap_angle;
 use nalgebra::{Vector2, vector};
 
 use super::center::center;
 use super::dead_end::dead_end;
 use super::geodesic::Geodesic;
-use super::options::PlaceOptions;
-use super::ways::{WayOut, ways_out};
+use super::ways::ways_out;
 use crate::grid::{Cell, Lattice, Occupancy, OccupancyGrid};
-use crate::skeleton::{FreeSpace, SkeletonParameters};
+use crate::place::local_path::is_straight;
+use crate::place::{Gateway, LocalStar, PlaceOptions};
+use crate::skeleton::FreeSpace;
 
 /// A place is looked at again at most so often.
 const MOST_LOOKS: usize = 8;
@@ -23,10 +23,18 @@ pub struct Sighting {
     pub center: Vector2<f64>,
     /// How far the free disc around the neighborhood's middle reaches, in metres.
     pub clearance: f64,
-    /// The ways out, in no particular order.
-    pub ways: Vec<WayOut>,
+    /// The gateways of the ways out, in no particular order.
+    pub gateways: Vec<Gateway>,
     /// Whether there is a choice, a turn or an end: anything but a way on and a way back.
     pub is_place: bool,
+}
+
+impl Sighting {
+    /// The star of the gateways; `None` if there are none.
+    #[must_use]
+    pub fn star(&self, options: &PlaceOptions) -> Option<LocalStar> {
+        LocalStar::new(self.center.into(), &self.gateways, options)
+    }
 }
 
 /// Looks at the neighborhood of a point in metres. `None` if no robot fits there.
@@ -37,13 +45,8 @@ pub struct Sighting {
 /// distinctive state of hill-climbing would be (section 2.1.1).
 #[must_use]
 pub fn sight(grid: &OccupancyGrid, from: Vector2<f64>, options: &PlaceOptions) -> Option<Sighting> {
-    let parameters = SkeletonParameters {
-        clutter: options.clutter,
-        narrowest_passage: options.narrowest_way,
-        ..SkeletonParameters::default()
-    };
     let grid = without_gaps(grid, options.gap);
-    let free = FreeSpace::new(&grid, &parameters);
+    let free = FreeSpace::new(&grid, &options.skeleton);
     let mut here = nearest_free(grid.lattice(), &free, from)?;
     let (mut sighting, mut inside) = look_from(&grid, &free, here, options);
     for _ in 0..MOST_LOOKS {
@@ -68,19 +71,20 @@ fn look_from(
     let middle = widest(lattice, free, start, options.climb);
     let clearance = free.field().clearance(middle);
     let border = clearance + options.margin;
-    let distances = Geodesic::new(lattice, middle, border + options.depth, |cell| free.contains(cell));
-    let ways = ways_out(lattice, &distances, border, options);
+    let distances = Geodesic::new(lattice, middle, border + options.depth(), |cell| free.contains(cell));
+    let ways = ways_out(free, &distances, border, options);
     let [x, y] = lattice.center(middle);
-    let crossing = center(ways.iter().map(|way| way.out.axis), vector![x, y]);
+    let crossing = center(ways.iter().map(|way| way.axis), vector![x, y]);
+    let gateways: Vec<Gateway> = ways.iter().map(|way| way.gateway).collect();
     let place = match &ways[..] {
         [] => None,
         [only] => {
             let is_way: BTreeSet<Cell> = only.cells.iter().copied().collect();
             let pocket = distances.reached().iter().filter(|cell| !is_way.contains(cell));
             let pocket: Vec<Cell> = pocket.copied().collect();
-            dead_end(grid, free, &pocket, only.out.axis.direction, options)
+            dead_end(grid, free, &pocket, only.axis.direction, options)
         }
-        [one, other] => (!is_passage(&one.out, &other.out, options)).then_some(crossing),
+        [one, other] => (!is_straight(&one.gateway, &other.gateway, options)).then_some(crossing),
         _ => Some(crossing),
     };
     let center = place.unwrap_or(crossing);
@@ -92,14 +96,8 @@ fn look_from(
     let inside = near
         .take_while(|&cell| distances.distance(cell).is_some_and(|distance| distance <= border))
         .min_by(|&a, &b| off(a).total_cmp(&off(b)));
-    let ways = ways.into_iter().map(|way| way.out).collect();
-    (Sighting { center, clearance, ways, is_place: place.is_some() }, inside.unwrap_or(middle))
-}
-
-/// A way on and a way back make a path and no place.
-fn is_passage(one: &WayOut, other: &WayOut, options: &PlaceOptions) -> bool {
-    let turn = wrap_angle(one.gateway.bearing - other.gateway.bearing - std::f64::consts::PI);
-    turn.abs() <= options.straight
+    let is_place = place.is_some();
+    (Sighting { center, clearance, gateways, is_place }, inside.unwrap_or(middle))
 }
 
 /// The grid with what was not seen taken for free within `gap` metres of free cells.

@@ -2,13 +2,13 @@
 
 use hssh_topology::Olp;
 
-use super::place_graph::PlaceNumber;
+use super::parts::PlaceNumber;
 use super::section::{Section, Way};
 use crate::skeleton::{AxisPoint, Skeleton, Tip};
 
 /// Two gateways that one way along the medial axis connects.
 #[derive(Clone, PartialEq, Debug)]
-pub struct Connection {
+pub struct PlaceConnection {
     /// The places with the ends of their stars, in the order of the line.
     pub ends: [(PlaceNumber, Olp); 2],
     /// The axis from one place's center to the other's.
@@ -41,7 +41,7 @@ pub(super) fn connect(
     skeleton: &Skeleton,
     sections: &[Section],
     resolved: &[Resolved],
-) -> (Vec<Connection>, Vec<OpenEnd>) {
+) -> (Vec<PlaceConnection>, Vec<OpenEnd>) {
     let (mut connections, mut open_ends) = (Vec::new(), Vec::new());
     for candidate in resolved {
         let Some(place) = candidate.place else { continue };
@@ -54,7 +54,7 @@ pub(super) fn connect(
                     if let Some((far, &far_olp)) = far
                         && (place, olp) < (far, far_olp)
                     {
-                        connections.push(Connection { ends: [(place, olp), (far, far_olp)], line });
+                        connections.push(PlaceConnection { ends: [(place, olp), (far, far_olp)], line });
                     }
                 }
                 None => {

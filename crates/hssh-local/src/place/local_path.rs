@@ -4,16 +4,15 @@ use std::f64::consts::PI;
 
 use hssh_metrics::wrap_angle;
 
-use super::PlaceParameters;
-use crate::gateway::Gateway;
+use super::{Gateway, PlaceOptions};
 
 /// For each gateway the one that continues it across the place, if there is one: pairs that point away
 /// from one another along one line, the straightest first.
-pub(super) fn continuations(gateways: &[Gateway], parameters: &PlaceParameters) -> Vec<Option<usize>> {
+pub(super) fn continuations(gateways: &[Gateway], options: &PlaceOptions) -> Vec<Option<usize>> {
     let mut pairs: Vec<(f64, usize, usize)> = Vec::new();
     for first in 0..gateways.len() {
         for second in first + 1..gateways.len() {
-            if let Some(cost) = crookedness(&gateways[first], &gateways[second], parameters) {
+            if let Some(cost) = crookedness(&gateways[first], &gateways[second], options) {
                 pairs.push((cost, first, second));
             }
         }
@@ -28,13 +27,23 @@ pub(super) fn continuations(gateways: &[Gateway], parameters: &PlaceParameters) 
     other
 }
 
+/// Whether two gateways point away from one another, so that one goes on where the other came from.
+pub(super) fn is_straight(one: &Gateway, other: &Gateway, options: &PlaceOptions) -> bool {
+    turn(one, other) <= options.straight
+}
+
+/// By how many radians a way turns that comes in by one gateway and goes out by the other.
+fn turn(one: &Gateway, other: &Gateway) -> f64 {
+    wrap_angle(one.bearing - other.bearing - PI).abs()
+}
+
 /// How far two gateways are from being the two ends of a straight path: 0 if they are, at most 2;
 /// `None` if they are no such pair.
-fn crookedness(first: &Gateway, second: &Gateway, parameters: &PlaceParameters) -> Option<f64> {
-    let turn = wrap_angle(first.bearing - second.bearing - PI).abs() / parameters.straight;
+fn crookedness(first: &Gateway, second: &Gateway, options: &PlaceOptions) -> Option<f64> {
+    let turn = turn(first, second) / options.straight;
     let offset = (passes_by(first, second) + passes_by(second, first)) / 2.0;
     let mean_width = (first.width + second.width) / 2.0;
-    let shift = offset / (parameters.aligned * mean_width).max(f64::MIN_POSITIVE);
+    let shift = offset / (options.aligned * mean_width).max(f64::MIN_POSITIVE);
     (turn <= 1.0 && shift <= 1.0).then_some(turn + shift)
 }
 
