@@ -2,7 +2,8 @@
 
 use crate::graph::PoseGraph;
 use crate::initial::chordal_poses;
-use crate::solve::{Options, Solution, SolveError, solve};
+use crate::solution::{Options, Solution, SolveError};
+use crate::solve::solve;
 
 /// Minimizes χ² as [`solve`] does, but from [`chordal_poses`], so that the poses which the graph holds cannot lead
 /// into the valley of a local minimum.

@@ -4,7 +4,7 @@ use crate::graph::PoseGraph;
 use crate::linear::Factor;
 use crate::linearization::{LinearizationPoint, NormalEquations};
 use crate::pose::Pose;
-use crate::solve::{Options, Solution, SolveError, StopReason, check};
+use crate::solution::{Options, Solution, SolveError, StopReason, check};
 
 /// One linear system at l_e = l_s ⊕ τ°: appendix B as it stands.
 pub(crate) fn linearize_once(graph: &PoseGraph) -> Result<Solution, SolveError> {

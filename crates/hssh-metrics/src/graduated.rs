@@ -3,7 +3,8 @@
 use crate::graph::{Edge, PoseGraph};
 use crate::pose::Pose;
 use crate::robust::{edge_chi2, reweighted};
-use crate::solve::{Options, Solution, SolveError, check, solve};
+use crate::solution::{Options, Solution, SolveError, check};
+use crate::solve::solve;
 
 /// The least threshold: any smaller one refuses every suspect that is not perfect, as this does.
 const LEAST_THRESHOLD: f64 = 1e-9;

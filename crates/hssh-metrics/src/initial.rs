@@ -9,7 +9,7 @@ use crate::graph::{Edge, PoseGraph};
 use crate::linear::BlockMatrix;
 use crate::linearization::{free_pairs, number_free_poses};
 use crate::pose::Pose;
-use crate::solve::{SolveError, check};
+use crate::solution::{SolveError, check};
 
 /// Dead reckoning: the anchored poses, and from them every other pose by compounding measurements along a
 /// spanning tree. Edges between consecutive poses come first, then the others in their order, so that the

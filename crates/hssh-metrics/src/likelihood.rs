@@ -3,7 +3,7 @@
 use std::f64::consts::TAU;
 
 use crate::graph::PoseGraph;
-use crate::solve::Solution;
+use crate::solution::Solution;
 
 /// ln of (4.9): the density of all measurements at the most likely poses, with its constants
 /// Σ −½ ln((2π)³ |C_i|).

@@ -7,7 +7,7 @@ use crate::graph::{PoseGraph, PoseId, quadratic_form};
 use crate::linear::Factor;
 use crate::linearization::{LinearizationPoint, NormalEquations};
 use crate::pose::Pose;
-use crate::solve::{SolveError, check};
+use crate::solution::{SolveError, check};
 use crate::uncertainty::Covariance;
 
 /// The Gaussian around the poses that a graph holds, with covariance A⁻¹, A of (B.11) linearized there.

@@ -6,7 +6,7 @@ use nalgebra::{Matrix3, Vector3};
 use crate::graph::{Edge, PoseGraph, PoseId};
 use crate::linearization::{LinearizationPoint, LinearizedEdge};
 use crate::pose::Pose;
-use crate::solve::{SolveError, check};
+use crate::solution::{SolveError, check};
 
 /// A pose graph relaxed.
 #[derive(Clone, PartialEq, Debug)]

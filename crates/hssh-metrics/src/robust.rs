@@ -2,7 +2,8 @@
 
 use crate::graph::{Edge, PoseGraph};
 use crate::pose::Pose;
-use crate::solve::{Options, SolveError, solve};
+use crate::solution::{Options, SolveError};
+use crate::solve::solve;
 
 /// A concave function ρ that takes the place of an edge's χ²: ρ(s) ≈ s while s is small.
 ///

@@ -14,12 +14,16 @@ use std::process::ExitCode;
 
 use arguments::{Arguments, Command};
 use clap::Parser;
-use tracing_subscriber::EnvFilter;
+use tracing_subscriber::filter::LevelFilter;
 
 fn main() -> ExitCode {
     let arguments = Arguments::parse();
-    let filter = EnvFilter::try_from_env("HSSH_LOG").unwrap_or_else(|_| EnvFilter::new("warn"));
-    tracing_subscriber::fmt().with_env_filter(filter).with_writer(std::io::stderr).init();
+    let level = std::env::var("HSSH_LOG").ok().map(|level| level.parse::<LevelFilter>());
+    let most = level.clone().and_then(Result::ok).unwrap_or(LevelFilter::WARN);
+    tracing_subscriber::fmt().with_max_level(most).with_writer(std::io::stderr).init();
+    if let Some(Err(error)) = level {
+        tracing::warn!("HSSH_LOG is no level: {error}");
+    }
     let done = match arguments.command {
         Command::Map(options) => command::map::run(&options),
         Command::Check(options) => command::check::run(&options),

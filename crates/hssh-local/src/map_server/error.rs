@@ -44,12 +44,12 @@ pub enum MapError {
         problem: String,
     },
     /// The image cannot be decoded.
-    #[error("{}: no readable PGM (P2, P5) or PNG image: {source}", .file.display())]
+    #[error("{}: no readable PGM (P2, P5) or PNG image: {problem}", .file.display())]
     Image {
         /// The image.
         file: PathBuf,
-        /// Why.
-        source: image::ImageError,
+        /// What is wrong with it.
+        problem: String,
     },
     /// The image makes no lattice.
     #[error("{}: {source}", .file.display())]
@@ -66,8 +66,8 @@ impl MapError {
         move |source| MapError::Io { verb, file: file.to_owned(), source }
     }
 
-    pub(super) fn image(file: &Path) -> impl FnOnce(image::ImageError) -> Self {
-        move |source| MapError::Image { file: file.to_owned(), source }
+    pub(super) fn image(file: &Path) -> impl FnOnce(String) -> Self {
+        move |problem| MapError::Image { file: file.to_owned(), problem }
     }
 
     pub(super) fn lattice(file: &Path) -> impl FnOnce(LatticeError) -> Self {

@@ -2,6 +2,7 @@
 
 mod description;
 mod error;
+mod image;
 mod read;
 #[cfg(test)]
 mod tests;

@@ -1,12 +1,10 @@
 //! Reads maps: a YAML file with its image, or an image alone.
 
-use std::io::Cursor;
 use std::path::Path;
-
-use image::{DynamicImage, ImageDecoder, ImageReader};
 
 use super::MapError;
 use super::description::Description;
+use super::image::Encoded;
 use crate::grid::{Cell, Lattice, OccupancyGrid};
 
 /// Reads a map of ROS `map_server`: a YAML file and the PGM (P2, P5) or PNG image it names.
@@ -37,20 +35,17 @@ pub fn read_floor_plan(image: &Path, resolution: f64) -> Result<OccupancyGrid, M
 }
 
 fn grid(file: &Path, bytes: &[u8], description: &Description) -> Result<OccupancyGrid, MapError> {
-    let reader =
-        ImageReader::new(Cursor::new(bytes)).with_guessed_format().map_err(MapError::io("read", file))?;
-    let decoder = reader.into_decoder().map_err(MapError::image(file))?;
-    let (width, height) = decoder.dimensions();
+    let image = Encoded::open(bytes).map_err(MapError::image(file))?;
+    let (width, height) = image.size();
     let [x, y, _] = description.origin;
     let lattice =
         Lattice::new(width, height, description.resolution, [x, y]).map_err(MapError::lattice(file))?;
-    let image = DynamicImage::from_decoder(decoder).map_err(MapError::image(file))?;
-    let pixels = image.to_luma_alpha8();
+    let pixels = image.pixels().map_err(MapError::image(file))?;
     let mut grid = OccupancyGrid::filled(lattice, crate::grid::Occupancy::Unknown);
-    for (column, row_from_top, pixel) in pixels.enumerate_pixels() {
-        let [gray, alpha] = pixel.0;
-        let cell = Cell { column, row: height - 1 - row_from_top };
-        grid.set(cell, description.occupancy(gray, alpha == 0));
+    for (row, pixels) in (0..height).rev().zip(pixels.chunks(width as usize)) {
+        for (column, &[gray, opacity]) in (0..).zip(pixels) {
+            grid.set(Cell { column, row }, description.occupancy(gray, opacity == 0));
+        }
     }
     Ok(grid)
 }

@@ -2,7 +2,7 @@
 
 use nalgebra::{Cholesky, DMatrix, DVector, Dyn, SMatrix};
 
-use super::NotPositiveDefinite;
+use super::error::NotPositiveDefinite;
 
 /// A symmetric matrix of D×D blocks; the lower triangle counts.
 pub(crate) struct DenseMatrix<const D: usize>(DMatrix<f64>);

@@ -1,6 +1,7 @@
 //! Symmetric positive definite matrices in D×D blocks: assembled, factorized and solved, dense or sparse.
 
 mod dense;
+mod error;
 mod simplicial;
 mod sparse;
 mod supernodal;
@@ -8,6 +9,7 @@ mod supernodal;
 use nalgebra::SMatrix;
 
 use dense::{DenseFactor, DenseMatrix};
+pub(crate) use error::NotPositiveDefinite;
 use sparse::{SparseFactor, SparseMatrix};
 
 /// Up to this many scalar unknowns a dense factorization is faster than ordering and analyzing a sparse one:
@@ -25,10 +27,6 @@ pub(crate) enum Factor<const D: usize> {
     Dense(DenseFactor),
     Sparse(SparseFactor<D>),
 }
-
-/// The matrix has, numerically, no Cholesky factor.
-#[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub(crate) struct NotPositiveDefinite;
 
 impl<const D: usize> BlockMatrix<D> {
     /// The zero matrix of `blocks` × `blocks` blocks, of which the diagonal ones and `pairs` may be filled.

@@ -7,7 +7,7 @@ use std::sync::Arc;
 use nalgebra::SMatrix;
 use sprs::CsMat;
 
-use super::NotPositiveDefinite;
+use super::error::NotPositiveDefinite;
 
 /// Which blocks the factor L of a pattern has, besides its diagonal.
 pub(crate) struct Symbolic {

@@ -8,7 +8,7 @@ use faer::sparse::linalg::amd;
 use nalgebra::SMatrix;
 use sprs::{CsMat, TriMat};
 
-use super::NotPositiveDefinite;
+use super::error::NotPositiveDefinite;
 use super::simplicial::{self, SimplicialFactor};
 use super::supernodal::{self, SupernodalFactor};
 

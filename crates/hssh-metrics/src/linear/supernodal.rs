@@ -13,7 +13,7 @@ use faer::{Conj, MatMut, Par, Side};
 use nalgebra::SMatrix;
 use sprs::CsMat;
 
-use super::NotPositiveDefinite;
+use super::error::NotPositiveDefinite;
 
 /// The pattern in scalars, and its supernodes.
 pub(crate) struct Symbolic {

@@ -5,7 +5,7 @@ use std::io::BufRead;
 
 use nalgebra::{Matrix3, matrix};
 
-use super::{GraphFile, SkippedLine};
+use super::file::{GraphFile, SkippedLine};
 use crate::graph::{Edge, GraphError, PoseGraph, PoseId};
 use crate::pose::Pose;
 use crate::uncertainty::{Information, UncertaintyError};

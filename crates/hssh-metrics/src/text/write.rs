@@ -2,7 +2,7 @@
 
 use std::fmt::{self, Write};
 
-use super::GraphFile;
+use super::file::GraphFile;
 use crate::graph::Edge;
 use crate::pose::Pose;
 

@@ -1,19 +1,11 @@
 //! `hssh stars` on a small floor: what it prints, draws and refuses.
-#![allow(clippy::unwrap_used, reason = "in tests a failed unwrap is the failed assertion")]
 
-use std::path::PathBuf;
-use std::process::{Command, Output};
+use std::process::Output;
 
-fn floor(name: &str) -> PathBuf {
-    PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../../fixtures/grids").join(name)
-}
+use super::common::{hssh, text};
 
 fn stars(file: &str, arguments: &[&str]) -> Output {
-    Command::new(env!("CARGO_BIN_EXE_hssh")).arg("stars").arg(floor(file)).args(arguments).output().unwrap()
-}
-
-fn text(bytes: &[u8]) -> String {
-    String::from_utf8(bytes.to_vec()).unwrap()
+    hssh(&[&["stars", &format!("fixtures/grids/{file}")], arguments].concat())
 }
 
 /// The floor is a ring with four corners, a middle corridor with two T junctions and a rotunda, a corridor

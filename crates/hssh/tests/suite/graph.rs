@@ -1,50 +1,25 @@
 //! `hssh graph` as a user runs it: what it prints and writes, and what it says of graphs that are none.
 
-use std::path::{Path, PathBuf};
-use std::process::{Command, Output, Stdio};
+use std::process::Output;
 
 use serde_json::Value;
 
-fn root() -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).join("../..")
-}
+use super::common::{self, hssh, hssh_reading, root, scratch};
 
-/// Runs `hssh graph` in the root of the repository.
 fn graph(arguments: &[&str]) -> Output {
-    Command::new(env!("CARGO_BIN_EXE_hssh"))
-        .current_dir(root())
-        .arg("graph")
-        .args(arguments)
-        .env_remove("HSSH_LOG")
-        .output()
-        .expect("the program starts")
+    hssh(&[&["graph"], arguments].concat())
 }
 
-/// Exit code, standard output and standard error; the line with times is left out.
+/// The session without the line of times.
 fn session(arguments: &[&str]) -> String {
-    let output = graph(arguments);
-    let text = |bytes: &[u8]| -> String {
-        let text = String::from_utf8_lossy(bytes);
-        text.lines().filter(|line| !line.starts_with("  time ")).map(|line| format!("{line}\n")).collect()
-    };
-    format!(
-        "$ hssh graph {}\n{}{}exit {}\n",
-        arguments.join(" "),
-        text(&output.stdout),
-        text(&output.stderr),
-        output.status.code().expect("the program exits by itself")
-    )
+    let session = common::session(&[&["graph"], arguments].concat());
+    let lines = session.lines().filter(|line| !line.starts_with("  time "));
+    lines.map(|line| format!("{line}\n")).collect()
 }
 
 fn answer(arguments: &[&str]) -> Value {
     let output = graph(&[arguments, &["--json"]].concat());
-    serde_json::from_slice(&output.stdout).expect("--json prints JSON")
-}
-
-fn scratch(name: &str) -> PathBuf {
-    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join(name);
-    std::fs::create_dir_all(&folder).expect("the scratch folder can be made");
-    folder
+    serde_json::from_slice(&output.stdout).unwrap()
 }
 
 const TWO_LAPS: &str = "fixtures/graphs/two-laps.g2o";
@@ -133,11 +108,7 @@ fn what_it_writes_is_what_it_found() {
 
 #[test]
 fn reads_standard_input() {
-    let output = Command::new(env!("CARGO_BIN_EXE_hssh"))
-        .args(["graph", "-", "--json"])
-        .stdin(Stdio::from(std::fs::File::open(root().join(TORO)).unwrap()))
-        .output()
-        .unwrap();
+    let output = hssh_reading(TORO, &["graph", "-", "--json"]);
     let answer: Value = serde_json::from_slice(&output.stdout).unwrap();
     assert_eq!(answer["edges"], 37);
 }

@@ -1,40 +1,6 @@
 //! The program as a user runs it: what it prints, what it writes, how it exits.
 
-use std::path::{Path, PathBuf};
-use std::process::{Command, Output, Stdio};
-
-fn root() -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).join("../..")
-}
-
-/// Runs the program in the root of the repository.
-fn hssh(arguments: &[&str]) -> Output {
-    Command::new(env!("CARGO_BIN_EXE_hssh"))
-        .current_dir(root())
-        .args(arguments)
-        .env_remove("HSSH_LOG")
-        .output()
-        .expect("the program starts")
-}
-
-/// Exit code, standard output and standard error, to be read side by side in a snapshot.
-fn session(arguments: &[&str]) -> String {
-    let output = hssh(arguments);
-    let text = |bytes: &[u8]| String::from_utf8_lossy(bytes).into_owned();
-    format!(
-        "$ hssh {}\n{}{}exit {}\n",
-        arguments.join(" "),
-        text(&output.stdout),
-        text(&output.stderr),
-        output.status.code().expect("the program exits by itself")
-    )
-}
-
-fn scratch(name: &str) -> PathBuf {
-    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join(name);
-    std::fs::create_dir_all(&folder).expect("the scratch folder can be made");
-    folder
-}
+use super::common::{hssh, hssh_reading, root, scratch, session};
 
 #[test]
 fn the_main_job() {
@@ -224,12 +190,7 @@ fn what_is_printed_is_read_back() {
 
 #[test]
 fn reads_standard_input() {
-    let text = std::fs::File::open(root().join("fixtures/aces.ron")).unwrap();
-    let program = Command::new(env!("CARGO_BIN_EXE_hssh"))
-        .args(["check", "-", "--json"])
-        .stdin(Stdio::from(text))
-        .output()
-        .unwrap();
+    let program = hssh_reading("fixtures/aces.ron", &["check", "-", "--json"]);
     let contents: serde_json::Value = serde_json::from_slice(&program.stdout).unwrap();
     assert_eq!((&contents["travels"], &contents["travels_with_odometry"]), (&14.into(), &14.into()));
 }

@@ -1,19 +1,8 @@
 //! The way from a laser log to the map of the building, on a real log and on bad ones.
 
-#![allow(clippy::unwrap_used, reason = "in tests a failed unwrap is the failed assertion")]
+use std::path::Path;
 
-use std::path::{Path, PathBuf};
-use std::process::{Command, Output};
-
-fn hssh(arguments: &[&str]) -> Output {
-    Command::new(env!("CARGO_BIN_EXE_hssh")).args(arguments).output().unwrap()
-}
-
-fn scratch(name: &str) -> PathBuf {
-    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("log");
-    std::fs::create_dir_all(&folder).unwrap();
-    folder.join(name)
-}
+use super::common::{hssh, scratch};
 
 /// Section 2.4 on the same floor: nine places, six paths, drawn and written as a grid.
 #[test]
@@ -23,10 +12,10 @@ fn a_log_becomes_the_map_of_its_building() {
         return;
     };
     let log = Path::new(&data).join("logs/aces.log.gz").to_string_lossy().into_owned();
-    let (grid, svg) = (scratch("aces.yaml"), scratch("aces.svg"));
+    let (grid, svg) = (scratch("log").join("aces.yaml"), scratch("log").join("aces.svg"));
     let files = ["--grid", &grid.to_string_lossy(), "--svg", &svg.to_string_lossy()].map(str::to_owned);
     let [a, b, c, d] = files.each_ref().map(String::as_str);
-    let stages = scratch("stages");
+    let stages = scratch("log").join("stages");
     let folder = stages.to_string_lossy().into_owned();
     let likeness = ["--likeness", "0.02", "--debug-dir", &folder];
     let output = hssh(&[&["map", &log, "--planar", "--json"], &likeness[..], &[a, b, c, d]].concat());
@@ -78,7 +67,7 @@ fn what_is_no_usable_log_is_refused() {
         ("one.log", b"FLASER 3 1 1 1 0 0 0 0 0 0 0.5 host 0.5\n", ""),
     ];
     for (name, bytes, expected) in cases {
-        let file = scratch(name);
+        let file = scratch("log").join(name);
         std::fs::write(&file, bytes).unwrap();
         let output = hssh(&["map", &file.to_string_lossy()]);
         let said = String::from_utf8_lossy(&output.stderr).into_owned();
@@ -89,9 +78,8 @@ fn what_is_no_usable_log_is_refused() {
 
 #[test]
 fn grids_come_from_logs_only() {
-    let exploration = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../fixtures/aces.ron");
     for option in [["--grid", "grid.png"], ["--debug-dir", "folder"], ["--shallowest", "5"]] {
-        let output = hssh(&[&["map", &exploration.to_string_lossy()], &option[..]].concat());
+        let output = hssh(&[&["map", "fixtures/aces.ron"], &option[..]].concat());
         assert_eq!(output.status.code(), Some(2));
         assert!(String::from_utf8_lossy(&output.stderr).contains("need a laser log"));
     }

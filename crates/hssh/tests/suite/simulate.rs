@@ -1,10 +1,6 @@
 //! `hssh simulate`: a log that `hssh explore` and `hssh map` make the true map of, and clear refusals.
 
-use std::process::{Command, Output};
-
-fn hssh(arguments: &[&str]) -> Output {
-    Command::new(env!("CARGO_BIN_EXE_hssh")).args(arguments).output().expect("the program was built")
-}
+use super::common::hssh;
 
 #[test]
 fn from_a_floor_to_its_map() {

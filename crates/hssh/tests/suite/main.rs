@@ -1,0 +1,10 @@
+//! The program as its users run it, in one test binary.
+#![allow(clippy::unwrap_used, reason = "in tests a failed unwrap is the failed assertion")]
+
+mod causal;
+mod common;
+mod graph;
+mod log;
+mod program;
+mod simulate;
+mod stars;
