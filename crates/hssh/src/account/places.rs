@@ -3,7 +3,7 @@
 use std::fmt;
 
 use hssh_local::{
-    DoorParameters, Gateway, LocalStar, OccupancyGrid, PlaceGraph, PlaceKind, PlaceNumber, hidden_area,
+    DoorOptions, Gateway, LocalStar, OccupancyGrid, PlaceGraph, PlaceKind, PlaceNumber, hidden_area,
 };
 use hssh_topology::Olp;
 use serde::{Deserialize, Serialize};
@@ -103,7 +103,7 @@ impl PlacesAccount {
             place: place.0,
             end: graph.place(place).star.star.name(olp).to_string(),
         };
-        let criterion = DoorParameters::default();
+        let criterion = DoorOptions::default();
         let constriction = |gateway: &Gateway| {
             let hidden_area = hidden_area(grid, gateway, &criterion);
             let is_door = criterion.accept(gateway, hidden_area);

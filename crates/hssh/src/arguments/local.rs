@@ -3,12 +3,8 @@
 use std::path::PathBuf;
 
 use clap::Args;
-<<<<<<< HEAD
 use hssh::pipeline::PlaceChoice;
-use hssh_local::{PlaceParameters, UnknownSpace};
-=======
-use hssh_local::{PlaceOptions, SurveyOptions, UnknownSpace};
->>>>>>> local
+use hssh_local::{PlaceOptions, UnknownSpace};
 
 #[derive(Debug, Args)]
 pub(crate) struct ExploreArguments {
@@ -93,13 +89,8 @@ pub(crate) struct StarsArguments {
     pub(crate) svg: Option<PathBuf>,
 }
 
-<<<<<<< HEAD
 impl StarsArguments {
-    pub(crate) fn parameters(&self) -> PlaceParameters {
-=======
-impl StarsOptions {
     pub(crate) fn parameters(&self) -> PlaceOptions {
->>>>>>> local
         let unknown = if self.unknown_is_free { UnknownSpace::Free } else { UnknownSpace::Wall };
         self.places.choice().in_grids(unknown)
     }
@@ -109,11 +100,7 @@ impl StarsOptions {
 #[derive(Debug, Args)]
 #[command(next_help_heading = "Places")]
 pub(crate) struct PlaceArguments {
-<<<<<<< HEAD
-    /// Passages narrower than this many metres are closed [default: 0.6 in grid maps, 0.55 along logs].
-=======
     /// Passages narrower than this many metres are closed [default: 0.6].
->>>>>>> local
     #[arg(long, value_name = "METRES", value_parser = length)]
     pub(crate) narrowest: Option<f64>,
     /// Ways that lead on for less than this many metres are no ways out [default: 1 in grid maps, 8 along logs].
@@ -125,7 +112,6 @@ pub(crate) struct PlaceArguments {
 }
 
 impl PlaceArguments {
-<<<<<<< HEAD
     /// The choice that they make.
     pub(crate) fn choice(&self) -> PlaceChoice {
         let PlaceArguments { narrowest, shallowest, clutter } = *self;
@@ -137,34 +123,6 @@ impl PlaceArguments {
         places.narrowest = self.narrowest.or(places.narrowest);
         places.shallowest = self.shallowest.or(places.shallowest);
         places.clutter = self.clutter.or(places.clutter);
-=======
-    /// What they mean in a grid map.
-    pub(crate) fn in_grids(&self, unknown: UnknownSpace) -> PlaceOptions {
-        let usual = PlaceOptions::default();
-        let mut options = self.shallowest.map_or(usual, |depth| usual.with_depth(depth));
-        options.skeleton.unknown = unknown;
-        self.narrow(options)
-    }
-
-    /// What they mean along a log.
-    pub(crate) fn along_logs(&self) -> SurveyOptions {
-        let usual = SurveyOptions::default();
-        let options = self.shallowest.map_or(usual, |depth| usual.with_depth(depth));
-        SurveyOptions { place: self.narrow(options.place), ..options }
-    }
-
-    /// What they say about free space, which is the same in both.
-    fn narrow(&self, mut options: PlaceOptions) -> PlaceOptions {
-        let skeleton = &mut options.skeleton;
-        skeleton.narrowest_passage = self.narrowest.unwrap_or(skeleton.narrowest_passage);
-        skeleton.clutter = self.clutter.unwrap_or(skeleton.clutter);
-        options
-    }
-
-    /// Whether nothing was asked for.
-    pub(crate) fn is_empty(&self) -> bool {
-        self.narrowest.is_none() && self.shallowest.is_none() && self.clutter.is_none()
->>>>>>> local
     }
 }
 

@@ -9,13 +9,9 @@ use clap::{Args, Parser, Subcommand, ValueEnum};
 use hssh::pipeline::MappingOptions;
 
 use crate::failure::Failure;
-<<<<<<< HEAD
 
 pub(crate) use local::{ExploreArguments, PlaceArguments, SimulateArguments, StarsArguments};
 pub(crate) use search::SearchArguments;
-=======
-pub(crate) use local::{ExploreOptions, PlaceArguments, SimulateOptions, StarsOptions};
->>>>>>> local
 
 /// Topological maps of places that look alike: all that explain an exploration, ranked and drawn.
 #[derive(Debug, Parser)]

@@ -4,13 +4,8 @@ use std::path::{Path, PathBuf};
 
 use hssh_draw::{GridPicture, TRUE_WAY, draw_grid};
 use hssh_local::{
-<<<<<<< HEAD
-    FreeSpace, LaserLog, LocalMapOptions, OccupancyGrid, Skeleton, SkeletonParameters, Survey, Visit,
+    FreeSpace, LaserLog, LocalMapOptions, OccupancyGrid, Skeleton, SkeletonOptions, Survey, Visit,
     global_map, write_png,
-=======
-    FreeSpace, LaserLog, LatticeError, LocalMapOptions, OccupancyGrid, Skeleton, SkeletonOptions, Survey,
-    Visit, global_map, write_png,
->>>>>>> local
 };
 use hssh_metrics::Pose;
 

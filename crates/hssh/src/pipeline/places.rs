@@ -1,6 +1,6 @@
 //! What counts as a place, in the terms of the library for small-scale space.
 
-use hssh_local::{PlaceParameters, SkeletonParameters, SurveyOptions, UnknownSpace};
+use hssh_local::{PlaceOptions, SurveyOptions, UnknownSpace};
 use serde::{Deserialize, Serialize};
 
 /// What counts as a place; what is not said is as usual, which is different in grid maps and along logs.
@@ -18,25 +18,26 @@ pub struct PlaceChoice {
 impl PlaceChoice {
     /// What that means in a grid map.
     #[must_use]
-    pub fn in_grids(&self, unknown: UnknownSpace) -> PlaceParameters {
-        let usual = SkeletonParameters::default();
-        let skeleton = SkeletonParameters {
-            unknown,
-            clutter: self.clutter.unwrap_or(usual.clutter),
-            narrowest_passage: self.narrowest.unwrap_or(usual.narrowest_passage),
-            shallowest_branch: self.shallowest.unwrap_or(usual.shallowest_branch),
-            ..usual
-        };
-        PlaceParameters { skeleton, ..PlaceParameters::default() }
+    pub fn in_grids(&self, unknown: UnknownSpace) -> PlaceOptions {
+        let usual = PlaceOptions::default();
+        let mut options = self.shallowest.map_or(usual, |depth| usual.with_depth(depth));
+        options.skeleton.unknown = unknown;
+        self.narrow(options)
     }
 
     /// What that means along a log.
     #[must_use]
     pub fn along_logs(&self) -> SurveyOptions {
         let usual = SurveyOptions::default();
-        let mut options = self.shallowest.map_or(usual, |depth| usual.with_depth(depth));
-        options.place.narrowest_way = self.narrowest.unwrap_or(options.place.narrowest_way);
-        options.place.clutter = self.clutter.unwrap_or(options.place.clutter);
+        let options = self.shallowest.map_or(usual, |depth| usual.with_depth(depth));
+        SurveyOptions { place: self.narrow(options.place), ..options }
+    }
+
+    /// What is said about free space, which is the same in both.
+    fn narrow(&self, mut options: PlaceOptions) -> PlaceOptions {
+        let skeleton = &mut options.skeleton;
+        skeleton.narrowest_passage = self.narrowest.unwrap_or(skeleton.narrowest_passage);
+        skeleton.clutter = self.clutter.unwrap_or(skeleton.clutter);
         options
     }
 
