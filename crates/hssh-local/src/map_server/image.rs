@@ -74,13 +74,13 @@ impl<'a> Pgm<'a> {
         let room = raster.len() as u64 / if is_wide || is_plain { 2 } else { 1 };
         let mut pixels = Vec::with_capacity(expected.min(room + 1) as usize);
         while (pixels.len() as u64) < expected {
-            let value = match raster {
+            let value = match *raster {
                 _ if is_plain => number(&mut raster),
-                &[high, low, ref rest @ ..] if is_wide => {
+                [high, low, ref rest @ ..] if is_wide => {
                     raster = rest;
                     Some(u32::from(u16::from_be_bytes([high, low])))
                 }
-                &[value, ref rest @ ..] if !is_wide => {
+                [value, ref rest @ ..] if !is_wide => {
                     raster = rest;
                     Some(u32::from(value))
                 }
