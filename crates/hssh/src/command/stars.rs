@@ -7,7 +7,7 @@ use hssh::pipeline::{MappingOptions, SurveyedLog};
 use hssh_draw::{GridPicture, draw_grid};
 use hssh_local::{
     DistanceField, DoorOptions, LocalMapOptions, Neighborhood, Occupancy, OccupancyGrid, PlaceGraph,
-    PlaceKind, PlaceOptions, Visit, doors, global_map, neighborhood, read_floor_plan, read_map,
+    PlaceOptions, Visit, doors, global_map, neighborhood, read_floor_plan, read_map,
 };
 use hssh_metrics::Pose;
 
