@@ -39,6 +39,7 @@ const LAYERS: [(&str, &[&str]); 12] = [
         &[
             "hssh-topology",
             "hssh-causal",
+            "hssh-verify",
             "hssh-metrics",
             "hssh-local",
             "hssh-search",

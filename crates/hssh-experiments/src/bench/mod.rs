@@ -1,5 +1,6 @@
 //! Timings of whole processes and of the structures that carry the search.
 
+mod certificates;
 mod closures;
 mod faces;
 mod graphs;
@@ -25,6 +26,7 @@ pub(crate) fn run(flags: &flags::Bench) -> Result<(), Box<dyn Error>> {
         Some("proof") => proof::run(limit),
         Some("graphs") => graphs::run(flags.data.as_deref(), runs),
         Some("closures") => closures::run(runs),
+        Some("certificates") => certificates::run(),
         Some("online") => online::run(flags.data.as_deref().or(data.as_deref())),
         None => {
             speed::run(runs)?;
@@ -32,7 +34,7 @@ pub(crate) fn run(flags: &flags::Bench) -> Result<(), Box<dyn Error>> {
             proof::run(limit)
         }
         Some(other) => {
-            let names = "speed, faces, proof, graphs, closures, online";
+            let names = "speed, faces, proof, graphs, closures, online, certificates";
             Err(format!("there is no benchmark `{other}`; there are: {names}").into())
         }
     }
