@@ -9,7 +9,7 @@ use std::sync::Arc;
 use hssh::answer::{
     Answer, AnswerError, AnswerWarning, AnsweredMap, AnsweredVisit, Assumption, CostItem, CostSheet,
     EndReference, EndState, Explanation, Finding, FoundCounts, InputKind, MapDifference, Objective,
-    PartingVisit, PlacedPose, SearchOrder, Spot, StopCause, TestTravels, Verdict, VerdictKind, VisitRecord,
+    PartingVisit, PlacedPose, SearchOrder, Spot, StopReason, TestTravels, Verdict, VerdictKind, VisitRecord,
     WarningKind, Worth,
 };
 use hssh::causal::Exploration;
@@ -131,14 +131,14 @@ fn every_word_is_documented() {
         SearchOrder::Count,
     ]));
     documented(words([
-        StopCause::NotSearched,
-        StopCause::Exhausted,
-        StopCause::Found,
-        StopCause::Proved,
-        StopCause::NodeLimit,
-        StopCause::TimeLimit,
-        StopCause::MemoryLimit,
-        StopCause::Interrupted,
+        StopReason::NotSearched,
+        StopReason::Exhausted,
+        StopReason::Found,
+        StopReason::Proved,
+        StopReason::NodeLimit,
+        StopReason::TimeLimit,
+        StopReason::MemoryLimit,
+        StopReason::Interrupted,
     ]));
     documented(words([
         VerdictKind::OneBest,

@@ -1,7 +1,6 @@
 //! How the tree of hypotheses was searched, and what that took.
 
-use std::fmt;
-
+use hssh_search::StopReason;
 use hssh_topology::Removals;
 use serde::{Deserialize, Serialize};
 
@@ -29,51 +28,6 @@ pub enum SearchOrder {
     Proof,
     /// All, only to be counted.
     Count,
-}
-
-/// Why a search stopped.
-#[derive(Clone, Copy, PartialEq, Eq, Debug, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
-pub enum StopCause {
-    /// It has not begun.
-    NotSearched,
-    /// The whole tree was searched.
-    Exhausted,
-    /// The first map was found that explains everything.
-    Found,
-    /// No other map is better: proved.
-    Proved,
-    /// The limit on hypotheses.
-    NodeLimit,
-    /// The limit on time.
-    TimeLimit,
-    /// The limit on memory.
-    MemoryLimit,
-    /// Somebody asked it to stop.
-    Interrupted,
-}
-
-impl StopCause {
-    /// Whether the search came to its own end.
-    #[must_use]
-    pub fn is_complete(self) -> bool {
-        matches!(self, StopCause::Exhausted | StopCause::Found | StopCause::Proved)
-    }
-}
-
-impl fmt::Display for StopCause {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.pad(match self {
-            StopCause::NotSearched => "not searched yet",
-            StopCause::Exhausted => "searched everything",
-            StopCause::Found => "found a map",
-            StopCause::Proved => "proved the best map",
-            StopCause::NodeLimit => "stopped by the node limit",
-            StopCause::TimeLimit => "stopped by the time limit",
-            StopCause::MemoryLimit => "stopped by the memory limit",
-            StopCause::Interrupted => "interrupted",
-        })
-    }
 }
 
 /// The hypotheses that explain the same number of travels.
@@ -116,7 +70,7 @@ pub struct SearchSummary {
     /// Whether closed maps only were accepted.
     pub closed_only: bool,
     /// Why it stopped.
-    pub stop: StopCause,
+    pub stop: StopReason,
     /// Hypotheses made: the root and every child of every step.
     pub nodes: u64,
     /// Maps made: the root's and one for every child of an expansion.

@@ -1,10 +1,11 @@
 //! The answer in a word and in a sentence.
 
+use hssh_search::StopReason;
 use serde::{Deserialize, Serialize};
 
 use super::certificate::CertificateSummary;
 use super::input::AnsweredInput;
-use super::search::{Objective, SearchOrder, SearchSummary, StopCause};
+use super::search::{Objective, SearchOrder, SearchSummary};
 use super::words::counted;
 
 /// What came of a search, for programs.
@@ -134,7 +135,7 @@ fn found(search: &SearchSummary, certificate: &CertificateSummary, kind: Verdict
             format!("stopped early, so far {maps} {explain} everything; the rest was not counted.")
         }
         (VerdictKind::StoppedEarly, _) => format!("{maps} {explain} {what}; the search stopped early."),
-        _ if *stop == StopCause::Found => {
+        _ if *stop == StopReason::Found => {
             format!("this map explains {what}; whether a {better} one exists was not searched.")
         }
         _ => {

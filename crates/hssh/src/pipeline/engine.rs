@@ -9,7 +9,7 @@ use hssh_metrics::{PoseGraph, UniformPrior};
 use hssh_search::{
     Appearance, Corridor, Distinction, Goal, LINEAR_TRUST, LevelCounts, Limits, MapPrior, Mapper,
     MapperBuilder, Metrical, Order, PlacePrior, PosteriorModel, Prediction, Proving, RankedMap, Report,
-    Score, StopReason, distinguish, place_by_odometry,
+    Score, distinguish, place_by_odometry,
 };
 use hssh_topology::{GenusRank, Hypothesis, MapOlp, Measure, Position, Preference, StarCatalog};
 
@@ -17,8 +17,8 @@ use super::error::{PipelineError, SearchFailure};
 use super::options::{GenusOrder, MappingOptions, MetricalScore, PriorKind, SearchMethod};
 use crate::answer::{
     Assumption, CertificateSummary, CostItem, CostSheet, EndReference, FoundCounts, MapDifference,
-    MapMeasure, Objective, PartingVisit, SearchLevel, SearchOrder, SearchSummary, StopCause, TestTravels,
-    Trusted, Worth,
+    MapMeasure, Objective, PartingVisit, SearchLevel, SearchOrder, SearchSummary, TestTravels, Trusted,
+    Worth,
 };
 
 pub use hssh_search::Monitor;
@@ -254,7 +254,7 @@ fn summary(report: &Report, objective: Objective, order: SearchOrder, closed_onl
         objective,
         order,
         closed_only,
-        stop: stop_cause(report.stop),
+        stop: report.stop,
         nodes: report.nodes,
         maps_made: report.maps,
         refuted: report.refuted,
@@ -347,19 +347,6 @@ fn cost_sheet(cost: &hssh_search::Cost) -> CostSheet {
     ];
     let item = |(item, nats): (&str, f64)| CostItem { item: item.to_owned(), nats };
     CostSheet { total: cost.total(), items: items.map(item).into() }
-}
-
-fn stop_cause(stop: StopReason) -> StopCause {
-    match stop {
-        StopReason::NotSearched => StopCause::NotSearched,
-        StopReason::Exhausted => StopCause::Exhausted,
-        StopReason::Found => StopCause::Found,
-        StopReason::Proved => StopCause::Proved,
-        StopReason::NodeLimit => StopCause::NodeLimit,
-        StopReason::TimeLimit => StopCause::TimeLimit,
-        StopReason::MemoryLimit => StopCause::MemoryLimit,
-        StopReason::Interrupted => StopCause::Interrupted,
-    }
 }
 
 /// What tells the second map from the first.
