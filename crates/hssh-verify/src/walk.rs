@@ -276,7 +276,7 @@ impl<'a> Walk<'a> {
         let pending = self.stepper.map.pending();
         let Some(posterior) = &mut self.posterior else { return Ok(()) };
         let (own, branches) = (posterior.bound(&mut self.stepper), posterior.branches(pending));
-        let is_hopeless = claimed.min(own) > best + HOPELESS;
+        let is_hopeless = own > best + HOPELESS && claimed - own <= 0.5 * (own - best);
         if !(claimed - own <= leeway(claimed, best) || is_hopeless) {
             return Err(statement.refuse(format!(
                 "the bound {claimed} is too high: for {} only {own} can be shown",

@@ -176,16 +176,17 @@ fn the_certificate_shown_in_the_documentation_holds() {
 fn no_bound_above_the_maps_below(
     question: &Question<'_>,
     above: impl Fn(&[f64]) -> Vec<f64>,
-    lowest: &str,
+    lowest: impl Fn(&str, &[f64]) -> Option<String>,
 ) -> usize {
     let proof = question.prove();
-    let mut lines: Vec<&str> = proof.text.lines().collect();
+    let lines: Vec<&str> = proof.text.lines().collect();
     let best = lines.iter().position(|line| line.starts_with("best")).unwrap();
-    lines[best] = lowest;
     let mut tried = 0;
     for (line, least) in &proof.least_below {
         let Some(least) = least.as_ref().filter(|_| lines[line - 1].starts_with('e')) else { continue };
-        let before = lines[..line - 1].join("\n");
+        let Some(lowest) = lowest(lines[best], least) else { continue };
+        let (head, tail) = (lines[..best].join("\n"), lines[best + 1..line - 1].join("\n"));
+        let before = format!("{head}\n{lowest}\n{tail}");
         let text = format!("{before}\no {}\n", question.write(&above(least)));
         let refusal = verify(&text, question.exploration).unwrap_err();
         assert_eq!(refusal.line, *line, "{refusal}");
@@ -204,15 +205,24 @@ fn bounds_of_preference_are_below_all_maps() {
         for genus in ["first", "last"] {
             let short = exploration.prefix(8);
             let mut question = Question::new(exploration, Objective::Preference(genus));
-            tried += no_bound_above_the_maps_below(&question, next_rank, "best 0 0 0 0");
+            tried +=
+                no_bound_above_the_maps_below(&question, next_rank, |_, _| Some("best 0 0 0 0".to_owned()));
             question.closed = true;
-            tried += no_bound_above_the_maps_below(&question, next_rank, "best 0 0 0 0");
+            tried +=
+                no_bound_above_the_maps_below(&question, next_rank, |_, _| Some("best 0 0 0 0".to_owned()));
             question = Question::new(&short, Objective::Preference(genus));
             question.axioms = Axioms { max_genus: Some(0), ..relaxed };
-            tried += no_bound_above_the_maps_below(&question, next_rank, "best 0 0 0 0");
+            tried +=
+                no_bound_above_the_maps_below(&question, next_rank, |_, _| Some("best 0 0 0 0".to_owned()));
         }
     }
     assert!(tried > 500);
+}
+
+/// The line of the best value, for what is not hopeless beside it: of all else the checker only confirms that it is.
+fn near_best(line: &str, least: &[f64]) -> Option<String> {
+    let best: f64 = line.strip_prefix("best ").unwrap().parse().unwrap();
+    (least[0] < best + 20.0).then(|| line.to_owned())
 }
 
 /// The next rank in the order.
@@ -232,6 +242,7 @@ fn bounds_of_posteriors_are_below_all_maps() {
         ("evidence uniform 1e-9", "flat"),
         (corridor, "simplicity 0.3 2.0 1.0"),
     ];
+    let mut tried = 0;
     for exploration in [fixture("aces.ron").prefix(9), snake_3x3(true).prefix(13)] {
         for (metrical, prior) in cases {
             let mut terms = Terms::new(metrical, prior);
@@ -239,8 +250,8 @@ fn bounds_of_posteriors_are_below_all_maps() {
             terms.appearance.insert((7, 1, 2), -1.0);
             let question = Question::new(&exploration, Objective::Posterior(terms));
             let above = |least: &[f64]| vec![least[0] + 1e-4 * (1.0 + least[0].abs())];
-            let tried = no_bound_above_the_maps_below(&question, above, "best -1e9");
-            assert!(tried > 10);
+            tried += no_bound_above_the_maps_below(&question, above, near_best);
         }
     }
+    assert!(tried > 60, "{tried}");
 }

@@ -3,6 +3,8 @@
 
 use std::ops::Range;
 
+use nalgebra::{Vector2, vector};
+
 use super::GatewayOptions;
 use crate::distance::DistanceField;
 use crate::grid::Cell;
@@ -22,6 +24,16 @@ pub struct Gateway {
     pub width: f64,
     /// Its two ends, the one to the left of somebody who leaves first.
     pub line: [[f64; 2]; 2],
+}
+
+impl Gateway {
+    /// The gateway of a width across a way at a point, for somebody who leaves in a direction of length 1.
+    pub(super) fn across(position: [f64; 2], direction: Vector2<f64>, width: f64) -> Self {
+        let left = vector![-direction.y, direction.x] * (width / 2.0);
+        let at = Vector2::from(position);
+        let line = [at + left, at - left].map(|end| [end.x, end.y]);
+        Gateway { position, bearing: direction.y.atan2(direction.x), width, line }
+    }
 }
 
 /// The position of a place's gateway in a way out: of the points in `range`, the first that is about as narrow as
