@@ -93,7 +93,7 @@ pub struct GatewayOptions {
     /// Along the medial axis it is looked for as far as this many times the clearance at the center …
     /// Default: 1.5.
     pub reach: f64,
-    /// … and this many metres more; around a point, this many metres from the border of the neighborhood.
+    /// … and this many metres more.
     /// Default: 1.0 m.
     pub reach_beyond: f64,
     /// Of all points in reach the first one counts that is at most this part wider than the narrowest:
