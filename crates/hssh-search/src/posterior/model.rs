@@ -35,7 +35,7 @@ pub enum PlacePrior {
     Uniform(UniformPrior),
     /// As far and as straight as corridors are.
     Corridor(Corridor),
-    /// As far as the corridors that were travelled so far: [`Corridor::typical`], estimated anew with every travel.
+    /// As far as the corridors that were travelled so far: [`Corridor::typical_of`], estimated anew with every travel.
     Typical,
 }
 
