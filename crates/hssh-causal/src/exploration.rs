@@ -146,6 +146,16 @@ pub enum OdometryError {
     /// NaN or infinite.
     #[error("odometry contains {0}, which is no finite number")]
     NotFinite(f64),
+    /// A number out of all proportion.
+    #[error("odometry says {value:e} {unit}, as no robot measures on one travel: {most:e} is the most")]
+    OutOfProportion {
+        /// The number.
+        value: f64,
+        /// Its unit.
+        unit: &'static str,
+        /// How large it may be.
+        most: f64,
+    },
     /// C ≠ Cᵀ.
     #[error(
         "the covariance is not symmetric: row {row} column {column} is {a}, but row {column} column {row} is {b}"
@@ -168,7 +178,12 @@ pub enum OdometryError {
 }
 
 impl Odometry {
-    /// Checks that all numbers are finite and that the covariance is symmetric positive definite.
+    /// How large the numbers may be, with their units: a thousand kilometres are no travel of a robot.
+    const MOST: [(f64, &'static str); 3] = [(1e6, "metres"), (1e6, "metres"), (1e4, "radians")];
+    /// How large variances may be: a million metres and as many turns.
+    const MOST_VARIANCE: f64 = 1e12;
+
+    /// Checks that all numbers are finite and in proportion, and that the covariance is symmetric positive definite.
     ///
     /// # Errors
     /// If it is not.
@@ -178,7 +193,16 @@ impl Odometry {
         if let Some(&bad) = entries.into_iter().find(|value| !value.is_finite()) {
             return Err(OdometryError::NotFinite(bad));
         }
+        for (value, (most, unit)) in flat.into_iter().zip(Self::MOST) {
+            if value.abs() > most {
+                return Err(OdometryError::OutOfProportion { value, unit, most });
+            }
+        }
         let c = &self.covariance;
+        if let Some(&value) = c.iter().flatten().find(|value| value.abs() > Self::MOST_VARIANCE) {
+            let (unit, most) = ("of variance", Self::MOST_VARIANCE);
+            return Err(OdometryError::OutOfProportion { value, unit, most });
+        }
         for (row, column) in [(0, 1), (0, 2), (1, 2)] {
             let (a, b) = (c[row][column], c[column][row]);
             if (a - b).abs() > 1e-9 * a.abs().max(b.abs()) {

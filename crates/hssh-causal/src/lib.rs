@@ -51,11 +51,13 @@
 
 mod bearings;
 pub mod control;
+mod doubt;
 mod exploration;
 mod format;
 pub mod schema;
 
 pub use bearings::BearingError;
+pub use doubt::{Doubt, Question};
 pub use exploration::{
     Exploration, ExplorationError, NamedStar, Odometry, OdometryError, StarType, Travel, TravelError,
 };

@@ -19,7 +19,9 @@ pub use distance::DistanceField;
 pub use global_map::{global_map, global_poses, mean_wall_distance, visit_frames};
 pub use grid::{Cell, CellLine, GridError, Lattice, LatticeError, Occupancy, OccupancyGrid};
 pub use local_map::{LocalMap, LocalMapOptions};
-pub use map_server::{MapError, encode_png, read_floor_plan, read_map, write_map, write_png};
+pub use map_server::{
+    MapError, encode_png, read_floor_plan, read_map, read_map_with_remarks, write_map, write_png,
+};
 pub use matching::{MatchOptions, MotionNoise, Track, TrackedScan, Tracker, track};
 pub use place::{
     DoorOptions, Gateway, GatewayOptions, GridPlace, LocalStar, Neighborhood, NeighborhoodError, OpenEnd,

@@ -9,7 +9,7 @@ use nalgebra::vector;
 use crate::angle::wrap_angle;
 use crate::graph::{Edge, GraphError, PoseGraph, PoseId};
 use crate::pose::Pose;
-use crate::uncertainty::Covariance;
+use crate::uncertainty::Information;
 
 /// What the robot measured on one travel: τ°, from π_s to π_e.
 #[derive(Clone, Copy, PartialEq, Debug)]
@@ -20,8 +20,8 @@ pub struct Observation {
     pub end: PoseId,
     /// τ°: the end pose as seen from the start pose.
     pub relative_pose: Pose,
-    /// The covariance C of its three numbers, x and y along the axes of the start pose.
-    pub covariance: Covariance,
+    /// The information C⁻¹ of its three numbers, x and y along the axes of the start pose.
+    pub information: Information,
 }
 
 /// A variable of the network.
@@ -136,9 +136,9 @@ impl BayesNetwork {
                 predicted.y - measured.y,
                 wrap_angle(predicted.theta - measured.theta)
             ];
-            let information = observation.covariance.information();
+            let information = &observation.information;
             let distance = difference.dot(&(information.matrix() * difference));
-            -0.5 * (3.0 * TAU.ln() + observation.covariance.log_determinant() + distance) // (4.3)
+            0.5 * (information.log_determinant() - information.rank() as f64 * TAU.ln() - distance) // (4.3)
         };
         self.observations.iter().map(factor).sum() // (4.8)
     }
@@ -147,9 +147,9 @@ impl BayesNetwork {
     ///
     /// ```
     /// # use hssh_metrics::{BayesNetwork, Covariance, Observation, Pose, PoseId};
-    /// let covariance = Covariance::from_standard_deviations(0.1, 0.1, 0.02)?;
+    /// let information = Covariance::from_standard_deviations(0.1, 0.1, 0.02)?.information();
     /// let travel = |start, end| Observation {
-    ///     start: PoseId(start), end: PoseId(end), relative_pose: Pose::new(8.0, 0.0, 0.0), covariance,
+    ///     start: PoseId(start), end: PoseId(end), relative_pose: Pose::new(8.0, 0.0, 0.0), information,
     /// };
     /// let there_and_back = BayesNetwork::new(2, vec![travel(0, 1), travel(1, 0)])?;
     /// assert_eq!(there_and_back.factorization(), "p(τ | π) =\n  p(τ1 | π1, π2)\n  p(τ2 | π2, π1)\n");
@@ -191,7 +191,7 @@ impl From<&PoseGraph> for BayesNetwork {
             start: edge.from,
             end: edge.to,
             relative_pose: edge.relative_pose,
-            covariance: edge.start_frame_information().covariance(),
+            information: edge.start_frame_information(),
         };
         BayesNetwork {
             known: graph.pose_ids().map(|pose| graph.is_anchored(pose)).collect(),

@@ -7,7 +7,7 @@ use crate::pose::Pose;
 use crate::uncertainty::{Covariance, Information};
 
 /// Which pose of a graph: they are counted from 0 in the order they were added.
-#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug, Serialize, Deserialize)]
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug, Default, Serialize, Deserialize)]
 #[serde(transparent)]
 pub struct PoseId(pub u32);
 

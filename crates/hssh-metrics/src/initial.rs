@@ -11,9 +11,12 @@ use crate::linearization::{free_pairs, number_free_poses};
 use crate::pose::Pose;
 use crate::solution::{SolveError, check};
 
+/// A relaxed direction is about of length one; one that is so short is none.
+const NO_DIRECTION: f64 = 1e-9;
+
 /// Dead reckoning: the anchored poses, and from them every other pose by compounding measurements along a
-/// spanning tree. Edges between consecutive poses come first, then the others in their order, so that the
-/// tree follows the odometry chain as far as there is one.
+/// spanning tree. Edges between consecutive poses come first, then the others in their order, and last those that do
+/// not measure every direction, so that the tree follows the odometry chain as far as there is one.
 ///
 /// # Errors
 /// As [`solve`](crate::solve): every component needs an anchored pose.
@@ -48,11 +51,16 @@ pub fn closures(graph: &PoseGraph) -> Vec<bool> {
     for pair in anchored.windows(2) {
         sets.join(pair[0].0, pair[1].0);
     }
-    let is_consecutive = |edge: &Edge| edge.from.0.abs_diff(edge.to.0) == 1;
+    let turn = |edge: &Edge| match edge.from.0.abs_diff(edge.to.0) {
+        _ if edge.information.rank() < 3 => 2,
+        1 => 0,
+        _ => 1,
+    };
+    let turns: Vec<u8> = graph.edges().iter().map(turn).collect();
     let mut closes = vec![true; graph.edges().len()];
-    for consecutive in [true, false] {
-        let edges = graph.edges().iter().zip(&mut closes);
-        for (edge, closes) in edges.filter(|(edge, _)| is_consecutive(edge) == consecutive) {
+    for turn in 0..=2 {
+        let edges = graph.edges().iter().zip(&turns).zip(&mut closes);
+        for ((edge, _), closes) in edges.filter(|((_, its), _)| **its == turn) {
             *closes = !sets.join(edge.from.0, edge.to.0);
         }
     }
@@ -85,7 +93,15 @@ fn chordal_rotations(graph: &PoseGraph) -> Result<Vec<f64>, SolveError> {
             constant: Vector2::zeros(),
         }
     });
-    Ok(problem.minimum()?.iter().map(|direction| direction.y.atan2(direction.x)).collect())
+    let directions = problem.minimum()?;
+    // What no measured turn joins to a known direction has none; where all turns are measured, they cancel each other.
+    let is_unmeasured = |edge: &Edge| edge.information.matrix()[(2, 2)] == 0.0;
+    if graph.edges().iter().any(is_unmeasured)
+        && directions.iter().any(|direction| direction.norm() < NO_DIRECTION)
+    {
+        return Err(SolveError::Singular);
+    }
+    Ok(directions.iter().map(|direction| direction.y.atan2(direction.x)).collect())
 }
 
 /// The poses that minimize χ² over the positions when the angles of the free poses are fixed.
@@ -99,12 +115,22 @@ fn positions(graph: &PoseGraph, angles: &[f64]) -> Result<Vec<Pose>, SolveError>
         let information = edge.information.rotated(measured.theta);
         let weight: Matrix2<f64> = information.matrix().fixed_view::<2, 2>(0, 0).into();
         let coupling: Vector2<f64> = information.matrix().fixed_view::<2, 1>(0, 2).into();
-        let shift =
-            weight.cholesky().expect("a block of a positive definite matrix is one").solve(&coupling) * turn;
+        let shift = pseudo_inverse(&weight) * coupling * turn;
         LinearEdge { by_start: -Matrix2::identity(), weight, constant: shift - measured.translation() }
     });
     let pose = |(position, angle): (&Vector2<f64>, &f64)| Pose::new(position.x, position.y, *angle);
     Ok(problem.minimum()?.iter().zip(angles).map(pose).collect())
+}
+
+/// W⁻¹; of a matrix that is zero in some direction, the inverse in the others.
+fn pseudo_inverse(weight: &Matrix2<f64>) -> Matrix2<f64> {
+    if let Some(cholesky) = weight.cholesky() {
+        return cholesky.inverse();
+    }
+    let eigen = weight.symmetric_eigen();
+    let zero = 1e-9 * eigen.eigenvalues.max();
+    let inverse = eigen.eigenvalues.map(|value| if value > zero { 1.0 / value } else { 0.0 });
+    eigen.eigenvectors * Matrix2::from_diagonal(&inverse) * eigen.eigenvectors.transpose()
 }
 
 /// An edge that asks for v_e + B v_s + c = 0 with weight W.

@@ -41,7 +41,8 @@
 //! appendix B.2, once or repeated; [`metrical_log_likelihood`] is (4.9) and [`laplace_log_evidence`] the
 //! integral (4.6) that it stands in for; [`Marginals`] says what is known of each pose, and what one more
 //! measurement would cost. If some measurements may be plainly wrong, [`screen_closures`] finds out which.
-//! [`relax`] lowers χ² without any large matrix. Where poses at hand may be misleading, [`solve_from_anywhere`] finds
+//! [`relax`] lowers χ² without any large matrix, and [`floating_poses`] says what is
+//! held by too few measurements. Where poses at hand may be misleading, [`solve_from_anywhere`] finds
 //! the same minimum whatever they are. [`BayesNetwork`] is section 4.2: the model that all of this is about.
 
 mod angle;
@@ -49,6 +50,7 @@ mod anywhere;
 mod bayes_network;
 mod components;
 mod descent;
+mod floating;
 mod graduated;
 mod graph;
 mod initial;
@@ -67,6 +69,7 @@ mod uncertainty;
 pub use angle::wrap_angle;
 pub use anywhere::solve_from_anywhere;
 pub use bayes_network::{BayesNetwork, Observation, Variable};
+pub use floating::floating_poses;
 pub use graduated::{Screening, screen_closures};
 pub use graph::{Edge, GraphError, PoseGraph, PoseId};
 pub use initial::{chordal_poses, closures, odometry_poses};
@@ -78,5 +81,5 @@ pub use relaxation::{Relaxation, relax};
 pub use robust::{Kernel, RobustSolution, reweighted, solve_robustly};
 pub use solution::{Method, Options, Solution, SolveError, StopReason};
 pub use solve::solve;
-pub use text::{GraphFile, ReadError, ReadProblem, SkippedLine, read_pose_graph};
+pub use text::{GraphFile, ReadError, ReadProblem, SkippedRecords, read_pose_graph};
 pub use uncertainty::{Covariance, Information, UncertainPose, UncertaintyError};

@@ -2,7 +2,7 @@
 
 use std::f64::consts::TAU;
 
-use crate::graph::PoseGraph;
+use crate::graph::{Edge, PoseGraph};
 use crate::solution::Solution;
 
 /// ln of (4.9): the density of all measurements at the most likely poses, with its constants
@@ -15,10 +15,11 @@ pub fn metrical_log_likelihood(graph: &PoseGraph, chi2: f64) -> f64 {
     log_normalization(graph) - chi2 / 2.0
 }
 
-/// Σ −½ ln((2π)³ |C_i|) over the edges.
+/// Σ −½ ln((2π)³ |C_i|) over the edges; of those that do not measure every direction, over the directions that they do.
 fn log_normalization(graph: &PoseGraph) -> f64 {
-    let edge_normalization = |information: f64| 0.5 * (information - 3.0 * TAU.ln());
-    graph.edges().iter().map(|edge| edge_normalization(edge.information.log_determinant())).sum()
+    let edge_normalization =
+        |edge: &Edge| 0.5 * (edge.information.log_determinant() - edge.information.rank() as f64 * TAU.ln());
+    graph.edges().iter().map(edge_normalization).sum()
 }
 
 /// A pose may be anywhere in some area, looking anywhere, with equal probability.

@@ -115,7 +115,30 @@ impl NormalEquations {
         poses.iter().zip(&self.unknown).map(moved).collect()
     }
 
+    /// The diagonal of A at the poses that a graph holds.
+    pub(crate) fn diagonal(&self, graph: &PoseGraph) -> Vec<f64> {
+        let mut diagonal = vec![0.0; self.right_hand_side.len()];
+        for (edge, information) in graph.edges().iter().zip(&self.information) {
+            let [start, end] = [edge.from, edge.to].map(|pose| graph.pose(pose));
+            let linearized = LinearizedEdge::new(edge, start, end, LinearizationPoint::Estimate);
+            let sides = [(edge.from, linearized.by_start), (edge.to, linearized.by_end)];
+            for (pose, jacobian) in sides {
+                let Some(block) = self.unknown[pose.index()] else { continue };
+                let weighted = jacobian.transpose() * information * jacobian;
+                for (entry, value) in diagonal[3 * block..][..3].iter_mut().zip(weighted.diagonal().iter()) {
+                    *entry += value;
+                }
+            }
+        }
+        diagonal
+    }
+
     /// Which three rows belong to each pose, if it is free.
+    pub(crate) fn unknowns(&self) -> &[Option<usize>] {
+        &self.unknown
+    }
+
+    /// The same, for good.
     pub(crate) fn into_unknowns(self) -> Vec<Option<usize>> {
         self.unknown
     }

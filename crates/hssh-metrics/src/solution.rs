@@ -106,7 +106,7 @@ pub enum SolveError {
     /// The matrix A cannot be factorized.
     #[error(
         "the normal equations are singular to working precision: the information matrices of the graph's edges \
-         differ by too many orders of magnitude"
+         differ by too many orders of magnitude, or there are too few measurements (`floating_poses` tells of what)"
     )]
     Singular,
 }

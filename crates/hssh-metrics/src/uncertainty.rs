@@ -15,9 +15,13 @@ const SYMMETRY_TOLERANCE: f64 = 1e-9;
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct Covariance(Matrix3<f64>);
 
-/// The inverse of a covariance of (x, y, θ): finite, symmetric, positive definite.
+/// What is known of a measured (x, y, θ): the inverse of a covariance, but zero in directions that are not measured;
+/// finite, symmetric, positive semidefinite.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct Information(Matrix3<f64>);
+
+/// Eigenvalues below this part of the largest are zero: text files round.
+const NEGLIGIBLE: f64 = 1e-9;
 
 /// Why a matrix is no covariance and no information matrix.
 #[derive(Clone, Copy, PartialEq, Debug, thiserror::Error)]
@@ -61,6 +65,16 @@ pub enum UncertaintyError {
 
 /// Checks a matrix once and for all; the result is exactly symmetric.
 fn checked(matrix: Matrix3<f64>) -> Result<Matrix3<f64>, UncertaintyError> {
+    let matrix = checked_symmetric(matrix)?;
+    let cholesky = matrix
+        .cholesky()
+        .ok_or_else(|| UncertaintyError::NotPositiveDefinite(matrix.symmetric_eigenvalues().min()))?;
+    let condition = matrix.amax() * cholesky.inverse().amax();
+    if condition <= WORST_CONDITION { Ok(matrix) } else { Err(UncertaintyError::IllConditioned(condition)) }
+}
+
+/// Checks that all entries are finite and mirrored; the result is so exactly.
+fn checked_symmetric(matrix: Matrix3<f64>) -> Result<Matrix3<f64>, UncertaintyError> {
     for row in 0..3 {
         for column in 0..3 {
             let value = matrix[(row, column)];
@@ -75,12 +89,7 @@ fn checked(matrix: Matrix3<f64>) -> Result<Matrix3<f64>, UncertaintyError> {
             return Err(UncertaintyError::NotSymmetric { row: row + 1, column: column + 1, value, mirrored });
         }
     }
-    let matrix = symmetrized(matrix);
-    let cholesky = matrix
-        .cholesky()
-        .ok_or_else(|| UncertaintyError::NotPositiveDefinite(matrix.symmetric_eigenvalues().min()))?;
-    let condition = matrix.amax() * cholesky.inverse().amax();
-    if condition <= WORST_CONDITION { Ok(matrix) } else { Err(UncertaintyError::IllConditioned(condition)) }
+    Ok(symmetrized(matrix))
 }
 
 fn symmetrized(matrix: Matrix3<f64>) -> Matrix3<f64> {
@@ -152,6 +161,56 @@ impl Information {
         checked(matrix).map(Information)
     }
 
+    /// An information matrix that may be zero in some directions, which are not measured then.
+    ///
+    /// # Errors
+    /// If an entry is not finite, or the matrix not symmetric, negative in some direction, or so much larger in one
+    /// measured direction than in another that it is too close to singular.
+    ///
+    /// ```
+    /// use hssh_metrics::Information;
+    /// use nalgebra::matrix;
+    ///
+    /// let position = Information::semidefinite(matrix![4.0, 0.0, 0.0; 0.0, 4.0, 0.0; 0.0, 0.0, 0.0])?;
+    /// assert_eq!(position.rank(), 2);
+    /// assert!(position.covariance().is_none());
+    /// # Ok::<(), hssh_metrics::UncertaintyError>(())
+    /// ```
+    pub fn semidefinite(matrix: Matrix3<f64>) -> Result<Self, UncertaintyError> {
+        let refusal = match checked(matrix) {
+            Ok(definite) => return Ok(Information(definite)),
+            Err(refusal @ UncertaintyError::NotPositiveDefinite(_)) => refusal,
+            Err(refusal) => return Err(refusal),
+        };
+        let symmetric = checked_symmetric(matrix)?;
+        let eigen = symmetric.symmetric_eigen();
+        let zero = NEGLIGIBLE * eigen.eigenvalues.max();
+        if eigen.eigenvalues.min() < -zero {
+            return Err(refusal);
+        }
+        let axes = [0, 1, 2].map(|axis| symmetric.column(axis).iter().all(|&entry| entry == 0.0));
+        let (zeros, unmeasured) = (eigen.eigenvalues.iter().filter(|&&value| value <= zero), axes.iter());
+        if zeros.count() == unmeasured.filter(|&&is_zero| is_zero).count() {
+            return Ok(Information(symmetric)); // the zeros are exact as they stand
+        }
+        let clear = eigen.eigenvalues.map(|value| if value <= zero { 0.0 } else { value });
+        let rebuilt = eigen.eigenvectors * Matrix3::from_diagonal(&clear) * eigen.eigenvectors.transpose();
+        Ok(Information(symmetrized(rebuilt)))
+    }
+
+    /// How many directions are measured: three, if the matrix is positive definite.
+    #[must_use]
+    pub fn rank(&self) -> usize {
+        if self.0.cholesky().is_some() { 3 } else { self.measured().count() }
+    }
+
+    /// The eigenvalues that are not zero.
+    fn measured(&self) -> impl Iterator<Item = f64> {
+        let eigenvalues = self.0.symmetric_eigenvalues();
+        let zero = NEGLIGIBLE * eigenvalues.max();
+        [0, 1, 2].into_iter().map(move |index| eigenvalues[index]).filter(move |&value| value > zero)
+    }
+
     /// The unit matrix.
     #[must_use]
     pub fn identity() -> Self {
@@ -164,10 +223,10 @@ impl Information {
         &self.0
     }
 
-    /// Ω⁻¹.
+    /// Ω⁻¹; `None` if there is a direction that is not measured.
     #[must_use]
-    pub fn covariance(&self) -> Covariance {
-        Covariance(symmetrized(cholesky(&self.0).inverse()))
+    pub fn covariance(&self) -> Option<Covariance> {
+        self.0.cholesky().map(|cholesky| Covariance(symmetrized(cholesky.inverse())))
     }
 
     /// R Ω Rᵀ with the rotation by `theta`, as [`Covariance::rotated`].
@@ -181,10 +240,13 @@ impl Information {
         Information(factor * self.0)
     }
 
-    /// ln |Ω|.
+    /// ln |Ω| of the directions that are measured.
     #[must_use]
     pub fn log_determinant(&self) -> f64 {
-        log_determinant(&self.0)
+        match self.0.cholesky() {
+            Some(cholesky) => 2.0 * cholesky.l_dirty().diagonal().map(f64::ln).sum(),
+            None => self.measured().map(f64::ln).sum(),
+        }
     }
 }
 

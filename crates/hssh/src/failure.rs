@@ -1,13 +1,15 @@
 //! How the program ends: exit codes, and what it says when it cannot do what was asked.
 
-use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 use hssh::answer::{Answer, PictureError, VerdictKind};
+use hssh::kind::FileKind;
 use hssh::pipeline::{PipelineError, SearchFailure};
 use hssh_causal::ParseError;
 use hssh_draw::TreeError;
+
+use crate::output::say;
 
 /// How a command ended that did what was asked.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -44,22 +46,34 @@ impl From<Status> for ExitCode {
 /// Why a command could not do what was asked.
 #[derive(Debug, thiserror::Error)]
 pub(crate) enum Failure {
-    #[error("cannot read {}: {error}\nhelp: give the path of an exploration, such as fixtures/aces.ron, or - for standard input", file.display())]
+    #[error("cannot read {}: {error}\nhelp: give the path of a file that is there, or - for standard input", file.display())]
     Read { file: PathBuf, error: std::io::Error },
+    #[error("{} is {kind}: unpack it first, as by `{} {} | hssh …` with `-` for the file", file.display(), unpacker(kind), file.display())]
+    Compressed { file: PathBuf, kind: FileKind },
+    #[error("{} is {kind}, but this command takes {wanted}{}", file.display(), advice(kind))]
+    Kind { file: PathBuf, kind: FileKind, wanted: &'static str },
+    #[error("cannot unpack {}: {error}\nhelp: the file is cut off or damaged: copy it again", file.display())]
+    Damaged { file: PathBuf, error: std::io::Error },
+    #[error("{} is longer than {most} MiB: no exploration is that large\nhelp: a laser log or a pose graph may be", file.display())]
+    TooLong { file: PathBuf, most: u64 },
     #[error("cannot write {}: {error}\nhelp: the folder must exist and be writable", file.display())]
     Write { file: PathBuf, error: std::io::Error },
+    #[error("{} is the input{}: hssh does not write over what it reads\nhelp: give the output another name", file.display(), also_named(file, input))]
+    OverInput { file: PathBuf, input: PathBuf },
+    #[error("{} and {} are one file, which only one output can have\nhelp: give each output a name of its own", other.display(), file.display())]
+    SameOutput { file: PathBuf, other: PathBuf },
     #[error("{rendered}")]
     Parse { rendered: String },
     #[error("cannot read the options in {}: {error}\nhelp: `hssh options` prints a file with all defaults", file.display())]
     ReadOptions { file: PathBuf, error: std::io::Error },
     #[error("{}:{}:{}: {}\nhelp: `hssh options` prints every option with its default", file.display(), error.line(), error.column(), error.problem())]
     Options { file: PathBuf, error: Box<hssh::pipeline::OptionsError> },
-    #[error("cannot read {}: {error}\nhelp: give the path of a pose graph in g2o or TORO form, or - for standard input", file.display())]
-    ReadGraph { file: PathBuf, error: std::io::Error },
     #[error("{}: {error}", file.display())]
     Graph { file: PathBuf, error: Box<hssh_metrics::ReadError> },
-    #[error("{} holds no pose graph in the plane: {skipped}\nhelp: records are `VERTEX_SE2`, `EDGE_SE2` and `FIX` (g2o) or `VERTEX2` and `EDGE2` (TORO)", file.display())]
+    #[error("{} holds no pose graph in the plane: {skipped}\nhelp: hssh reads records in the plane: `VERTEX_SE2`, `EDGE_SE2` (g2o), `VERTEX2`, `EDGE2` (TORO), `ODOMETRY` (iSAM)", file.display())]
     EmptyGraph { file: PathBuf, skipped: String },
+    #[error("{}: {lost}, and --strict accepts no partial answer", file.display())]
+    Partial { file: PathBuf, lost: String },
     #[error("cannot solve the pose graph: {0}")]
     Solve(#[from] hssh_metrics::SolveError),
     #[error(transparent)]
@@ -106,6 +120,24 @@ fn help(error: &PipelineError) -> &'static str {
     }
 }
 
+/// The name of the input, if it is another one.
+fn also_named(file: &Path, input: &Path) -> String {
+    if file == input { String::new() } else { format!(" under another name ({})", input.display()) }
+}
+
+/// What unpacks a compressed file.
+fn unpacker(kind: &FileKind) -> &'static str {
+    if let FileKind::Compressed(_, unpacker) = kind { unpacker } else { "cat" }
+}
+
+/// What to do with a file that another command takes, on a line of its own.
+fn advice(kind: &FileKind) -> String {
+    match kind.advice() {
+        "" => String::new(),
+        advice => format!("\nhelp: {advice}"),
+    }
+}
+
 impl From<PipelineError> for Failure {
     fn from(error: PipelineError) -> Self {
         Failure::Pipeline(Box::new(error))
@@ -123,7 +155,7 @@ impl Failure {
         let prefix = if matches!(self, Failure::Parse { .. }) { "" } else { "error: " };
         let text = self.to_string();
         if !self.is_broken_pipe() {
-            let _ = writeln!(std::io::stderr(), "{prefix}{}", text.trim_end());
+            say(&format!("{prefix}{}", text.trim_end()));
         }
     }
 

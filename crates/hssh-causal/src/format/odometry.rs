@@ -26,7 +26,13 @@ pub(super) fn read_odometry(value: &Value<'_>, faults: &mut Faults) -> Option<Od
     let written = record.get("covariance")?;
     let covariance = faults.keep(read_covariance(written));
     let odometry = Odometry { x: x?, y: y?, theta: theta?, covariance: covariance? };
-    let checked = odometry.check().map_err(|error| no_measurement(&error, written));
+    let checked = odometry.check().map_err(|error| {
+        let number = ["x", "y", "theta"].into_iter().zip([odometry.x, odometry.y, odometry.theta]);
+        let is_it =
+            |value: f64| matches!(error, OdometryError::OutOfProportion { value: bad, .. } if bad == value);
+        let culprit = number.filter(|&(_, value)| is_it(value)).find_map(|(name, _)| record.get(name));
+        no_measurement(&error, culprit.unwrap_or(written))
+    });
     faults.keep(checked).map(|()| odometry)
 }
 
@@ -86,6 +92,11 @@ fn read_number(value: &Value<'_>) -> Result<f64, Fault> {
 fn no_measurement(error: &OdometryError, covariance: &Value<'_>) -> Fault {
     let (span, help) = match *error {
         OdometryError::NotFinite(_) => (covariance.head(), COVARIANCE.to_owned()),
+        OdometryError::OutOfProportion { .. } => (
+            covariance.head(),
+            "write metres and radians as they were measured, and leave out the whole `odometry` if there was none"
+                .to_owned(),
+        ),
         OdometryError::NotSymmetric { row, column, a, .. } => (
             entry(covariance, column, row).unwrap_or(covariance).span,
             format!("write the same number, {a}, in both places if that one is right"),

@@ -2,6 +2,8 @@
 
 use std::fmt;
 
+use hssh_metrics::Pose;
+
 /// Why one message cannot be used.
 #[derive(Clone, PartialEq, Eq, Debug, thiserror::Error)]
 pub enum MessageProblem {
@@ -13,9 +15,9 @@ pub enum MessageProblem {
         /// The word.
         token: String,
     },
-    /// A range below zero.
-    #[error("word {word}, `{token}`, is a negative range")]
-    NegativeRange {
+    /// A coordinate out of all proportion.
+    #[error("word {word}, `{token}`, is no place where a robot may be")]
+    FarAway {
         /// Its position in the line, counted from 1.
         word: usize,
         /// The word.
@@ -45,18 +47,18 @@ pub enum MessageProblem {
         /// How many are needed.
         expected: usize,
     },
-    /// The scan has another number of beams than the scans before it.
-    #[error("the scan has {found} beams, but the scans before it have {expected}")]
+    /// The scan has another number of beams than most.
+    #[error("the scan has {found} beams, but most scans have {expected}")]
     OtherBeamCount {
         /// How many beams it has.
         found: usize,
-        /// How many the first scan has.
+        /// How many most scans have.
         expected: usize,
     },
 }
 
-/// Something in a log that was passed over.
-#[derive(Clone, PartialEq, Eq, Debug)]
+/// Something in a log that was passed over, or taken otherwise than it stands there.
+#[derive(Clone, PartialEq, Debug)]
 pub enum LogWarning {
     /// A message that was left out.
     Message {
@@ -74,6 +76,66 @@ pub enum LogWarning {
         /// What happened there.
         reason: String,
     },
+    /// Beams of which the word is no range: nothing came back along them.
+    OddBeams {
+        /// The line of the first, counted from 1.
+        line: u64,
+        /// Its word.
+        word: String,
+        /// How many beams there are.
+        beams: u64,
+        /// In how many scans.
+        scans: u64,
+    },
+    /// The range limit of the laser was taken from the readings.
+    RangeLimit {
+        /// The limit: metres.
+        limit: f64,
+        /// How many readings there are at the limit.
+        beams: u64,
+        /// What the log says, if it does.
+        said: Option<f64>,
+    },
+    /// The laser is not at the robot's axis; the robot's pose is taken to be the laser's.
+    LaserPose {
+        /// The laser in the frame of the robot.
+        pose: Pose,
+        /// Where that is known from.
+        source: &'static str,
+    },
+    /// The odometry jumps as no robot moves; the step is bridged by the one before it and by the scans.
+    Jump {
+        /// The line behind the jump, counted from 1.
+        line: u64,
+        /// How far it jumps: metres.
+        metres: f64,
+        /// How far it turns: radians.
+        turn: f64,
+    },
+}
+
+impl LogWarning {
+    /// The line that it is about, counted from 1; 0 if it is about the whole log.
+    pub(super) fn line(&self) -> u64 {
+        match self {
+            LogWarning::Message { line, .. }
+            | LogWarning::BreaksOff { line, .. }
+            | LogWarning::OddBeams { line, .. }
+            | LogWarning::Jump { line, .. } => *line,
+            LogWarning::RangeLimit { .. } | LogWarning::LaserPose { .. } => 0,
+        }
+    }
+
+    /// Whether a part of the log is missing from what is made of it.
+    #[must_use]
+    pub fn is_loss(&self) -> bool {
+        match self {
+            LogWarning::Message { .. } | LogWarning::BreaksOff { .. } | LogWarning::Jump { .. } => true,
+            LogWarning::OddBeams { .. } | LogWarning::RangeLimit { .. } | LogWarning::LaserPose { .. } => {
+                false
+            }
+        }
+    }
 }
 
 impl fmt::Display for LogWarning {
@@ -85,6 +147,34 @@ impl fmt::Display for LogWarning {
             LogWarning::BreaksOff { line, reason } => {
                 write!(f, "line {line}: the log breaks off here ({reason}); it was used up to this line")
             }
+            LogWarning::OddBeams { line, word, beams, scans } => write!(
+                f,
+                "line {line}: `{word}` is no range; that beam and {} others in {scans} scans were taken to have brought \
+                 nothing back",
+                beams - 1
+            ),
+            LogWarning::RangeLimit { limit, beams, said } => {
+                write!(
+                    f,
+                    "{beams} readings are {limit} m and hardly any is longer: that was taken for the laser's limit, "
+                )?;
+                match said {
+                    Some(said) => write!(f, "although the log says {said} m"),
+                    None => write!(f, "for the log does not say `robot_front_laser_max`"),
+                }
+            }
+            LogWarning::LaserPose { pose: Pose { x, y, theta }, source } => write!(
+                f,
+                "the laser sits {x:.2} m ahead of the robot's axis, {y:.2} m to its left and turned by {:.1}°, says {source}; \
+                 the robot's poses are those of its laser",
+                theta.to_degrees()
+            ),
+            LogWarning::Jump { line, metres, turn } => write!(
+                f,
+                "line {line}: the odometry jumps by {metres:.1} m and {:.0}°, as no robot moves; the step was bridged by \
+                 scan matching",
+                turn.to_degrees()
+            ),
         }
     }
 }
@@ -111,6 +201,25 @@ pub enum LogError {
     /// Nothing in it.
     #[error("the log is empty")]
     Empty,
+    /// Hardly a beam of any scan came back.
+    #[error(
+        "hardly anything came back to the laser: {returned} of {beams} beams are shorter than its limit of {limit} m{}",
+        if *is_in_millimetres {
+            "; are the ranges millimetres? A log has metres: divide them by 1000"
+        } else {
+            "; is the limit (`PARAM robot_front_laser_max`) right, and did the laser look at anything?"
+        }
+    )]
+    NothingCameBack {
+        /// How many beams came back.
+        returned: u64,
+        /// How many there are.
+        beams: u64,
+        /// The limit.
+        limit: f64,
+        /// Whether the ranges would make sense as millimetres.
+        is_in_millimetres: bool,
+    },
     /// No usable scan.
     #[error(
         "the log has no usable laser scan: {lines} lines, among them {messages}{first}; a log needs FLASER messages",

@@ -4,12 +4,18 @@
 //! |---|---|
 //! | `FLASER n r… x y θ x y θ t host t` | a scan, the corrected pose (for scoring only) and the raw odometry |
 //! | `ODOM x y θ …` | raw odometry between scans |
-//! | `PARAM name value …` | `robot_front_laser_max`: from here on a range means that nothing came back |
+//! | `PARAM name value …` | `robot_front_laser_max`: from that range on nothing came back; `robot_frontlaser_offset` and its kin: where the laser sits |
 //! | anything else | counted |
+//!
+//! Names of messages may be in capitals or not. The last of several values of a parameter counts, for the whole log.
 
 mod error;
+mod jump;
+mod limit;
 mod log;
 mod message;
+mod mount;
+mod raw;
 mod reader;
 
 pub use error::{LogError, LogWarning, MessageProblem};

@@ -50,7 +50,7 @@ impl<'a> LogReader<'a> {
         self.warnings
     }
 
-    pub(super) fn warn(&mut self, kind: &str, problem: super::MessageProblem) {
+    fn warn(&mut self, kind: &str, problem: super::MessageProblem) {
         let kind = kind.to_owned();
         self.warnings.push(LogWarning::Message { line: self.line, kind, problem });
     }
@@ -64,7 +64,10 @@ impl<'a> LogReader<'a> {
             match Message::parse(&text) {
                 Ok(message) => return Ok(Some(message)),
                 Err(problem) if is_whole => {
-                    self.warn(text.split_whitespace().next().unwrap_or_default(), problem);
+                    self.warn(
+                        &text.split_whitespace().next().unwrap_or_default().to_ascii_uppercase(),
+                        problem,
+                    );
                 }
                 Err(problem) => self.break_off(&problem.to_string()),
             }

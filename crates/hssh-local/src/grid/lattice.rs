@@ -43,11 +43,14 @@ pub enum LatticeError {
         /// Rows.
         height: u32,
     },
-    /// Cells without a size.
-    #[error("the resolution must be a positive number of metres per cell, not {0}")]
+    /// Cells without a size, or of one that makes no sense.
+    #[error(
+        "the resolution must be a positive number of metres per cell, from {} to {}, not {:e}; a cell is some centimetres as a rule",
+        Lattice::RESOLUTIONS.start(), Lattice::RESOLUTIONS.end(), .0
+    )]
     Resolution(f64),
     /// No place in the plane.
-    #[error("the origin must be two finite numbers of metres, not ({}, {})", .0[0], .0[1])]
+    #[error("the origin must be two numbers of metres, between -{most:e} and {most:e}, not ({:e}, {:e})", .0[0], .0[1], most = Lattice::FARTHEST)]
     Origin([f64; 2]),
 }
 
@@ -56,6 +59,10 @@ impl Lattice {
     pub const MOST_CELLS: u64 = 1 << 28;
     /// The most columns and the most rows: 2¹⁵, so that a squared distance fits 32 bits.
     pub const LONGEST_SIDE: u32 = 1 << 15;
+    /// How many metres the side of a cell may have.
+    pub const RESOLUTIONS: std::ops::RangeInclusive<f64> = 1e-3..=100.0;
+    /// How far the origin may be from that of the frame, in metres: more than the earth is around.
+    pub const FARTHEST: f64 = 1e8;
 
     /// A lattice of `width` columns and `height` rows with cells of `resolution` metres; `origin` is
     /// the lower left corner of cell (0, 0), in metres.
@@ -70,10 +77,10 @@ impl Lattice {
         if width.max(height) > Self::LONGEST_SIDE || cells > Self::MOST_CELLS {
             return Err(LatticeError::TooLarge { width, height });
         }
-        if !(resolution.is_finite() && resolution > 0.0) {
+        if !Self::RESOLUTIONS.contains(&resolution) {
             return Err(LatticeError::Resolution(resolution));
         }
-        if !origin.iter().all(|coordinate| coordinate.is_finite()) {
+        if !origin.iter().all(|coordinate| coordinate.abs() <= Self::FARTHEST) {
             return Err(LatticeError::Origin(origin));
         }
         Ok(Lattice { width, height, resolution, origin })

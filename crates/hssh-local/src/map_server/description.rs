@@ -1,8 +1,10 @@
 //! The YAML file of a map: its image, where it lies, and how gray values are to be read.
 
+use std::fmt;
 use std::path::{Path, PathBuf};
 
-use serde::Deserialize;
+use serde::de::{Error, Visitor};
+use serde::{Deserialize, Deserializer};
 
 use super::MapError;
 use crate::grid::Occupancy;
@@ -16,8 +18,9 @@ pub(super) struct Description {
     pub(super) resolution: f64,
     /// The lower left corner of the image (metres) and the rotation of the image (radians).
     pub(super) origin: [f64; 3],
-    /// 0: dark is occupied; 1: light is occupied.
-    negate: u8,
+    /// Whether light is occupied, and not dark.
+    #[serde(deserialize_with = "switch")]
+    negate: bool,
     occupied_thresh: f64,
     free_thresh: f64,
     #[serde(default)]
@@ -37,6 +40,63 @@ enum Mode {
     Raw,
 }
 
+/// As what `map_saver` writes the unknown.
+pub(super) const UNKNOWN_GRAY: u8 = 205;
+
+/// Reads what is 0 or 1 for one program and false or true for another.
+fn switch<'de, D: Deserializer<'de>>(source: D) -> Result<bool, D::Error> {
+    struct Switch;
+    impl Visitor<'_> for Switch {
+        type Value = bool;
+
+        fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+            f.write_str("0, 1, true or false")
+        }
+
+        fn visit_bool<E: Error>(self, value: bool) -> Result<bool, E> {
+            Ok(value)
+        }
+
+        fn visit_i64<E: Error>(self, value: i64) -> Result<bool, E> {
+            self.visit_str(&value.to_string())
+        }
+
+        fn visit_u64<E: Error>(self, value: u64) -> Result<bool, E> {
+            self.visit_str(&value.to_string())
+        }
+
+        fn visit_f64<E: Error>(self, value: f64) -> Result<bool, E> {
+            self.visit_str(&value.to_string())
+        }
+
+        fn visit_str<E: Error>(self, value: &str) -> Result<bool, E> {
+            match value.to_ascii_lowercase().as_str() {
+                "0" | "false" | "no" | "off" => Ok(false),
+                "1" | "true" | "yes" | "on" => Ok(true),
+                _ => Err(E::custom(format!(
+                    "`negate` is {}, but must be 0, 1, true or false",
+                    value.escape_debug()
+                ))),
+            }
+        }
+    }
+    source.deserialize_any(Switch)
+}
+
+/// What the YAML library says, without its picture of the place and its advice to programmers.
+fn in_plain_words(problem: &str) -> String {
+    let first = problem.lines().next().unwrap_or_default();
+    let first = first.strip_prefix("error: ").unwrap_or(first);
+    if first.contains("uplicate") {
+        let place = first.split(':').next().filter(|place| place.starts_with("line")).unwrap_or("the file");
+        return format!("{place}: a key stands there for the second time; leave one of the two out");
+    }
+    let plain = first
+        .replace("invalid f64", "this is no number")
+        .replace("invalid floating point value", "this is no number");
+    plain.split(", set ").next().unwrap_or_default().to_owned()
+}
+
 impl Description {
     /// What `map_saver` writes and `map_server` takes for granted: dark is occupied.
     pub(super) fn of_floor_plan(image: &Path, resolution: f64) -> Self {
@@ -44,7 +104,7 @@ impl Description {
             image: image.to_owned(),
             resolution,
             origin: [0.0; 3],
-            negate: 0,
+            negate: false,
             occupied_thresh: 0.65,
             free_thresh: 0.196,
             mode: Mode::Trinary,
@@ -53,16 +113,16 @@ impl Description {
 
     pub(super) fn parse(file: &Path, text: &str) -> Result<Self, MapError> {
         let refuse = |problem: String| MapError::Description { file: file.to_owned(), problem };
-        let description: Description = serde_saphyr::from_str(text)
-            .map_err(|error| MapError::Yaml { file: file.to_owned(), problem: error.to_string() })?;
-        let Description { origin: [.., yaw], negate, occupied_thresh, free_thresh, .. } = description;
+        let text = text.trim_start_matches('\u{feff}');
+        let description: Description = serde_saphyr::from_str(text).map_err(|error| MapError::Yaml {
+            file: file.to_owned(),
+            problem: in_plain_words(&error.to_string()),
+        })?;
+        let Description { origin: [.., yaw], occupied_thresh, free_thresh, .. } = description;
         if yaw != 0.0 {
             return Err(refuse(format!(
                 "`origin` turns the map by {yaw} rad; only 0 is supported: turn the image itself, or set the third number to 0 to work in the frame of the image"
             )));
-        }
-        if negate > 1 {
-            return Err(refuse(format!("`negate` is {negate}, but must be 0 or 1")));
         }
         if !(0.0 <= free_thresh && free_thresh <= occupied_thresh && occupied_thresh <= 1.0) {
             return Err(refuse(format!(
@@ -72,13 +132,20 @@ impl Description {
         Ok(description)
     }
 
+    /// Whether `map_saver`'s mark for the unknown would be free by the letter of the thresholds.
+    ///
+    /// Navigation2 writes `free_thresh: 0.25` by default, and the unknown as the gray value that is occupied by 0.196.
+    pub(super) fn frees_the_unknown(&self) -> bool {
+        self.mode == Mode::Trinary && !self.negate && self.occupancy(UNKNOWN_GRAY, false) == Occupancy::Free
+    }
+
     /// What a gray value says; transparent pixels are unknown.
     pub(super) fn occupancy(&self, gray: u8, is_transparent: bool) -> Occupancy {
         let value = f64::from(gray);
         let occupied = match (self.mode, self.negate) {
             (Mode::Raw, _) => value / 100.0,
-            (_, 0) => (255.0 - value) / 255.0,
-            _ => value / 255.0,
+            (_, false) => (255.0 - value) / 255.0,
+            (_, true) => value / 255.0,
         };
         if is_transparent || (self.mode == Mode::Raw && occupied > 1.0) {
             Occupancy::Unknown

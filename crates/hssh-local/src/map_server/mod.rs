@@ -9,5 +9,5 @@ mod tests;
 mod write;
 
 pub use error::MapError;
-pub use read::{read_floor_plan, read_map};
+pub use read::{read_floor_plan, read_map, read_map_with_remarks};
 pub use write::{encode_png, write_map, write_png};

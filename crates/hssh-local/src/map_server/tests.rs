@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use super::{read_floor_plan, read_map, write_map, write_png};
+use super::{read_floor_plan, read_map, read_map_with_remarks, write_map, write_png};
 use crate::grid::{Lattice, Occupancy, OccupancyGrid};
 
 /// A folder of its own for one test.
@@ -63,7 +63,61 @@ fn the_top_row_of_the_image_is_the_last_row_and_thresholds_decide() {
     let thresholds = refusal(&yaml.replace("0.196", "0.9"));
     assert!(thresholds.contains("`free_thresh` is 0.9"), "{thresholds}");
     let size = refusal(&yaml.replace("0.5", "-0.5"));
-    assert!(size.contains("a.pgm: the resolution must be a positive number"), "{size}");
+    assert!(size.contains("a.yaml: the resolution must be a positive number"), "{size}");
+    std::fs::remove_dir_all(folder).unwrap();
+}
+
+/// What programs write for yes and no, and the mark of the unknown where the threshold would free it.
+#[test]
+fn every_writer_of_maps_is_understood() {
+    let folder = folder("writers");
+    use Occupancy::{Free, Occupied, Unknown};
+    let image = |grays: &str| std::fs::write(folder.join("a.pgm"), format!("P2 3 1 255 {grays}\n")).unwrap();
+    let read = |negate: &str, free: &str| {
+        let yaml = format!(
+            "\u{feff}image: a.pgm\nresolution: 0.5\norigin: [1, 2, 0]\nnegate: {negate}\noccupied_thresh: 0.65\nfree_thresh: {free}\n"
+        );
+        std::fs::write(folder.join("a.yaml"), yaml).unwrap();
+        read_map_with_remarks(&folder.join("a.yaml"))
+    };
+    image("0 205 254");
+    for negate in ["0", "false", "False", "no"] {
+        assert_eq!(read(negate, "0.196").unwrap().0.cells(), [Occupied, Unknown, Free], "{negate}");
+    }
+    for negate in ["1", "true", "TRUE", "yes"] {
+        assert_eq!(read(negate, "0.196").unwrap().0.cells(), [Free, Occupied, Occupied], "{negate}");
+    }
+    let refusal = read("perhaps", "0.196").unwrap_err().to_string();
+    assert!(refusal.contains("0, 1, true or false") && refusal.contains("line 4"), "{refusal}");
+    assert_eq!(refusal.lines().count(), 1);
+
+    let (grid, remarks) = read("0", "0.25").unwrap();
+    assert_eq!(grid.cells(), [Occupied, Unknown, Free]);
+    assert!(remarks[0].contains("free_thresh: 0.196"), "{remarks:?}");
+    // A drawing in many grays means what it says.
+    image("0 205 230");
+    let (grid, remarks) = read("0", "0.25").unwrap();
+    assert_eq!((grid.cells(), remarks.len()), (&[Occupied, Free, Free][..], 0));
+    std::fs::remove_dir_all(folder).unwrap();
+}
+
+#[test]
+fn numbers_out_of_proportion_are_refused() {
+    let folder = folder("proportion");
+    std::fs::write(folder.join("a.pgm"), "P2 1 1 255 0\n").unwrap();
+    let refusal = |resolution: &str, x: &str| {
+        let yaml = format!(
+            "image: a.pgm\nresolution: {resolution}\norigin: [{x}, 2, 0]\nnegate: 0\noccupied_thresh: 0.65\nfree_thresh: 0.1\n"
+        );
+        std::fs::write(folder.join("a.yaml"), yaml).unwrap();
+        read_map(&folder.join("a.yaml")).unwrap_err().to_string()
+    };
+    for resolution in ["1e308", "5000", "1e-9", "0", "-1", ".nan", ".inf"] {
+        assert!(refusal(resolution, "0").contains("the resolution must be"), "{resolution}");
+    }
+    for x in ["1e308", "-1e9", ".inf"] {
+        assert!(refusal("0.05", x).contains("the origin must be"), "{x}");
+    }
     std::fs::remove_dir_all(folder).unwrap();
 }
 

@@ -55,7 +55,9 @@ fn along_a_corridor_odometry_decides() {
 #[test]
 fn a_robot_that_sees_nothing_goes_by_odometry() {
     let poses = drive(&[[0.0, 0.0], [3.0, 0.0]], 0.5);
-    let track = tracked(&Walls::new(), &poses);
+    // One wall, farther away than what is matched.
+    let far: Walls = vec![[[25.0, -3.0], [25.0, 3.0]]];
+    let track = tracked(&far, &poses);
     let last = track.scans[track.scans.len() - 1];
     assert!((last.travelled - 3.15).abs() < 1e-6, "{last:?}");
 }

@@ -1,274 +1,265 @@
-//! Reading pose graphs from g2o and TORO text; the record type decides which of the two a line is.
+//! Reading pose graphs: the record type decides how a line is read, and one line decides for all what `EDGE2` means.
 
-use std::collections::BTreeMap;
 use std::io::BufRead;
 
-use nalgebra::{Matrix3, matrix};
-
-use super::file::{GraphFile, SkippedLine};
-use crate::graph::{Edge, GraphError, PoseGraph, PoseId};
-use crate::pose::Pose;
-use crate::uncertainty::{Information, UncertaintyError};
-
-/// What is wrong with a text that should be a pose graph, and where.
-#[derive(Debug, thiserror::Error)]
-#[error("line {line}: {problem}")]
-pub struct ReadError {
-    /// The line, from 1.
-    pub line: usize,
-    /// What is wrong with it.
-    #[source]
-    pub problem: ReadProblem,
-}
-
-/// What is wrong with a line.
-#[derive(Debug, thiserror::Error)]
-pub enum ReadProblem {
-    /// The text cannot be read any further.
-    #[error("cannot be read: {0}")]
-    Unreadable(#[from] std::io::Error),
-    /// The line ends too early.
-    #[error("{record} ends before its {field}; a complete line is `{form}`")]
-    Missing {
-        /// The record type.
-        record: &'static str,
-        /// What should come next.
-        field: &'static str,
-        /// How the record is written.
-        form: &'static str,
-    },
-    /// A word that is not what stands there.
-    #[error(
-        "`{token}` stands where {record} has its {field}, which must be {expected}; a complete line is `{form}`"
-    )]
-    Malformed {
-        /// The record type.
-        record: &'static str,
-        /// The word.
-        token: String,
-        /// What it should be.
-        field: &'static str,
-        /// How that is written.
-        expected: &'static str,
-        /// How the record is written.
-        form: &'static str,
-    },
-    /// The line goes on after its last field.
-    #[error("`{token}` is one word too many for {record}; a complete line is `{form}`")]
-    Superfluous {
-        /// The record type.
-        record: &'static str,
-        /// The first word too many.
-        token: String,
-        /// How the record is written.
-        form: &'static str,
-    },
-    /// Two vertex records for one pose.
-    #[error("pose {label} was given on line {first} already: every pose has one vertex record")]
-    RepeatedPose {
-        /// The file's number for the pose.
-        label: u64,
-        /// The line that gave it first.
-        first: usize,
-    },
-    /// An anchor for a pose that occurs nowhere.
-    #[error("pose {0} is fixed, but no vertex and no edge mentions it")]
-    UnknownFixedPose(u64),
-    /// The information matrix is none.
-    #[error("the information matrix from pose {from} to pose {to} is {problem}")]
-    Information {
-        /// The file's number for the start pose.
-        from: u64,
-        /// The file's number for the end pose.
-        to: u64,
-        /// What is wrong with it.
-        problem: UncertaintyError,
-    },
-    /// An edge from a pose to itself.
-    #[error("the edge leads from pose {0} to itself: it says nothing about where the pose is, leave it out")]
-    SelfEdge(u64),
-    /// The edge does not fit into the graph; poses are named by [`PoseId`].
-    #[error(transparent)]
-    Edge(#[from] GraphError),
-}
+use super::error::{ReadError, ReadProblem, shown};
+use super::fields::Fields;
+use super::file::{GraphFile, SkippedRecords};
+use super::lines::Lines;
+use super::records::{EdgeRecord, Entries, Key, Records};
 
 const VERTEX_FORM: &str = "VERTEX_SE2 id x y theta";
+const POINT_FORM: &str = "VERTEX_XY id x y";
 const G2O_EDGE_FORM: &str = "EDGE_SE2 from to x y theta I11 I12 I13 I22 I23 I33";
 const TORO_EDGE_FORM: &str = "EDGE2 from to x y theta Ixx Ixy Iyy Itt Ixt Iyt";
+const ISAM_EDGE_FORM: &str = "ODOMETRY from to x y theta R11 R12 R13 R22 R23 R33";
+const SIGHTING_FORM: &str = "EDGE_SE2_XY pose landmark x y I11 I12 I22";
+const ISAM_SIGHTING_FORM: &str = "LANDMARK pose landmark x y R11 R12 R22";
+const PRIOR_FORM: &str = "EDGE_PRIOR_SE2 id x y theta I11 I12 I13 I22 I23 I33";
+const POSITION_FORM: &str = "EDGE_PRIOR_SE2_XY id x y I11 I12 I22";
+const SWITCHABLE_FORM: &str = "EDGE_SE2_SWITCHABLE from to switch x y theta I11 I12 I13 I22 I23 I33";
+const MIXTURE_FORM: &str = "EDGE_SE2_MAXMIX from to weight x y theta I11 I12 I13 I22 I23 I33";
+const SWITCH_FORM: &str = "VERTEX_SWITCH id value";
+const SWITCH_PRIOR_FORM: &str = "EDGE_SWITCH_PRIOR id 1 information";
 const FIX_FORM: &str = "FIX id [id ...]";
 
-/// Reads a pose graph: `VERTEX_SE2`, `EDGE_SE2` and `FIX` as g2o writes them, `VERTEX2` and `EDGE2` as TORO
-/// does. Empty lines and what follows a `#` are comments. Files without vertices are welcome.
+/// What is no pose graph has no record of one on so many lines.
+const MOST_LINES_BEFORE_A_RECORD: usize = 100_000;
+/// Types of records that are not read are told apart up to this many.
+const MOST_SKIPPED_TYPES: usize = 50;
+
+/// Reads a pose graph.
+///
+/// | record | from | read as |
+/// |---|---|---|
+/// | `VERTEX_SE2`, `VERTEX2` | g2o, TORO | a pose |
+/// | `EDGE_SE2`, `EDGE2` | g2o, TORO | a measured relative pose |
+/// | `FIX` | g2o | poses that are held where they are |
+/// | `EDGE_PRIOR_SE2`, `EDGE_PRIOR_SE2_XY` | g2o | a pose, or its position, measured in the frame of the world |
+/// | `VERTEX_XY`, `EDGE_SE2_XY` | g2o | a landmark, and where a pose saw it |
+/// | `EDGE_SE2_SWITCHABLE`, `EDGE_SE2_MAXMIX` | Vertigo | a measurement that the file holds for doubtful |
+/// | `VERTEX_SWITCH`, `EDGE_SWITCH_PRIOR` | Vertigo | not needed: whether it is believed is decided anew |
+/// | `ODOMETRY`, `LANDMARK` | iSAM | an edge, a sighting, with the square root of the information |
+///
+/// A file with an `ODOMETRY` record is iSAM's, whose `EDGE2` has the square root of the information, row by row, of
+/// errors along the axes of the start pose. Empty lines and what follows a `#` are comments. Files without vertices
+/// are welcome. A matrix may be zero in some directions: they are not measured then.
 ///
 /// # Errors
 /// If a line of these types is incomplete, has a word too many, or says something impossible.
 ///
 /// ```
-/// let text = "EDGE_SE2 7 9 1.0 0.0 0.5 1 0 0 1 0 1\nEDGE_SE2_XY 7 3 1 1 1 0 1\n";
+/// let text = "EDGE_SE2 7 9 1.0 0.0 0.5 1 0 0 1 0 1\nEDGE_BEARING_SE2_XY 7 3 1 1\n";
 /// let file = hssh_metrics::read_pose_graph(text.as_bytes())?;
 /// assert_eq!(file.labels, [7, 9]);
-/// assert_eq!(file.skipped[0].record, "EDGE_SE2_XY");
+/// assert_eq!(file.skipped[0].record, "EDGE_BEARING_SE2_XY");
+/// assert!(file.skipped[0].matters());
 /// # Ok::<(), hssh_metrics::ReadError>(())
 /// ```
 pub fn read_pose_graph(text: impl BufRead) -> Result<GraphFile, ReadError> {
-    let mut records = Records::default();
-    for (index, content) in text.lines().enumerate() {
-        let line = index + 1;
-        let read = content.map_err(ReadProblem::from).and_then(|content| records.read_line(line, &content));
+    let mut lines = Lines::new(text);
+    let mut reader = Reader::default();
+    loop {
+        let content = lines.next_line();
+        let line = lines.number();
+        let read = match content {
+            Ok(None) => return reader.records.into_file(reader.skipped),
+            Ok(Some(content)) => reader.read_line(line, &content),
+            Err(problem) => Err(problem),
+        };
         read.map_err(|problem| ReadError { line, problem })?;
     }
-    records.into_file()
 }
 
-/// An edge as its line gives it.
-struct EdgeRecord {
-    line: usize,
-    from: u64,
-    to: u64,
-    relative_pose: Pose,
-    information: Information,
-}
-
-/// What the lines say, before poses are numbered.
+/// What the lines said so far.
 #[derive(Default)]
-struct Records {
-    vertices: BTreeMap<u64, (usize, Pose)>,
-    edges: Vec<EdgeRecord>,
-    fixed: Vec<(usize, u64)>,
-    skipped: Vec<SkippedLine>,
+struct Reader {
+    records: Records,
+    skipped: Vec<SkippedRecords>,
+    /// Whether there was a record of a known type.
+    knows_any: bool,
 }
 
-impl Records {
+impl Reader {
     fn read_line(&mut self, line: usize, content: &str) -> Result<(), ReadProblem> {
         let content = content.split('#').next().unwrap_or_default();
         let mut words = content.split_whitespace();
         let Some(record) = words.next() else { return Ok(()) };
-        match record {
-            "VERTEX_SE2" | "VERTEX2" => {
-                let mut fields = Fields { words, record: "a vertex", form: VERTEX_FORM };
-                let label = fields.label("pose")?;
-                let pose = fields.pose()?;
-                fields.end()?;
-                if let Some((first, _)) = self.vertices.insert(label, (line, pose)) {
-                    return Err(ReadProblem::RepeatedPose { label, first });
-                }
-            }
-            "EDGE_SE2" => {
-                let fields = Fields { words, record: "an edge", form: G2O_EDGE_FORM };
-                self.edges.push(fields.edge(
-                    line,
-                    |[i11, i12, i13, i22, i23, i33]| matrix![i11, i12, i13; i12, i22, i23; i13, i23, i33],
-                )?);
-            }
-            "EDGE2" => {
-                let fields = Fields { words, record: "an edge", form: TORO_EDGE_FORM };
-                self.edges.push(fields.edge(
-                    line,
-                    |[ixx, ixy, iyy, itt, ixt, iyt]| matrix![ixx, ixy, ixt; ixy, iyy, iyt; ixt, iyt, itt],
-                )?);
-            }
-            "FIX" => {
-                let count = words.clone().count().max(1);
-                let mut fields = Fields { words, record: "a fixed pose", form: FIX_FORM };
-                for _ in 0..count {
-                    self.fixed.push((line, fields.label("pose")?));
-                }
-            }
-            other => self.skipped.push(SkippedLine { line, record: other.to_owned() }),
+        if self.records.read(line, &record.to_ascii_uppercase(), words)? {
+            self.knows_any = true;
+        } else {
+            self.skip(line, shown(record));
+        }
+        if !self.knows_any && line >= MOST_LINES_BEFORE_A_RECORD {
+            return Err(ReadProblem::NoRecords);
         }
         Ok(())
     }
 
-    fn into_file(self) -> Result<GraphFile, ReadError> {
-        let mut placed: BTreeMap<u64, Option<Pose>> =
-            self.vertices.into_iter().map(|(label, (_, pose))| (label, Some(pose))).collect();
-        for edge in &self.edges {
-            placed.entry(edge.from).or_default();
-            placed.entry(edge.to).or_default();
+    fn skip(&mut self, line: usize, record: String) {
+        let record = if self.skipped.len() < MOST_SKIPPED_TYPES { record } else { "others".to_owned() };
+        match self.skipped.iter_mut().find(|skipped| skipped.record == record) {
+            Some(known) => known.count += 1,
+            None => self.skipped.push(SkippedRecords { line, record, count: 1 }),
         }
-        let mut graph = PoseGraph::new();
-        let (mut ids, mut unplaced) = (BTreeMap::new(), Vec::new());
-        for (&label, pose) in &placed {
-            let id = graph.add_pose(pose.unwrap_or_default());
-            ids.insert(label, id);
-            if pose.is_none() {
-                unplaced.push(id);
-            }
-        }
-        for EdgeRecord { line, from, to, relative_pose, information } in self.edges {
-            graph
-                .add_edge(Edge { from: ids[&from], to: ids[&to], relative_pose, information })
-                .map_err(|problem| ReadError { line, problem: problem.into() })?;
-        }
-        for (line, label) in self.fixed {
-            let unknown = ReadError { line, problem: ReadProblem::UnknownFixedPose(label) };
-            let pose: &PoseId = ids.get(&label).ok_or(unknown)?;
-            graph.anchor(*pose).map_err(|problem| ReadError { line, problem: problem.into() })?;
-        }
-        Ok(GraphFile { graph, labels: placed.into_keys().collect(), unplaced, skipped: self.skipped })
     }
 }
 
-/// The words of one line after its record type.
-struct Fields<'a> {
-    words: std::str::SplitWhitespace<'a>,
-    record: &'static str,
-    form: &'static str,
-}
-
-impl Fields<'_> {
-    fn parse<T: std::str::FromStr>(
+impl Records {
+    /// Reads the words after a record type, in capitals; false if the type is not known.
+    fn read(
         &mut self,
-        field: &'static str,
-        expected: &'static str,
-        accept: impl Fn(&T) -> bool,
-    ) -> Result<T, ReadProblem> {
-        let Fields { record, form, .. } = *self;
-        let token = self.words.next().ok_or(ReadProblem::Missing { record, field, form })?;
-        let value = token.parse().ok().filter(accept);
-        value.ok_or_else(|| ReadProblem::Malformed { record, token: token.to_owned(), field, expected, form })
-    }
-
-    fn label(&mut self, field: &'static str) -> Result<u64, ReadProblem> {
-        self.parse(field, "a whole number from 0", |_| true)
-    }
-
-    fn number(&mut self, field: &'static str) -> Result<f64, ReadProblem> {
-        self.parse(field, "a finite number", |value: &f64| value.is_finite())
-    }
-
-    fn pose(&mut self) -> Result<Pose, ReadProblem> {
-        Ok(Pose::new(self.number("x")?, self.number("y")?, self.number("angle")?))
-    }
-
-    fn edge(
-        mut self,
         line: usize,
-        arrange: impl Fn([f64; 6]) -> Matrix3<f64>,
-    ) -> Result<EdgeRecord, ReadProblem> {
-        let (from, to) = (self.label("start pose")?, self.label("end pose")?);
-        if from == to {
-            return Err(ReadProblem::SelfEdge(from));
+        record: &str,
+        words: std::str::SplitWhitespace<'_>,
+    ) -> Result<bool, ReadProblem> {
+        let fields = |record, form| Fields { words: words.clone(), record, form };
+        match record {
+            "VERTEX_SE2" | "VERTEX2" => {
+                let mut fields = fields("a vertex", VERTEX_FORM);
+                let label = fields.label("pose")?;
+                let (pose, _) = fields.pose()?;
+                fields.end()?;
+                self.add_vertex(line, Key::pose(label), pose)?;
+            }
+            "VERTEX_XY" => {
+                let mut fields = fields("a landmark", POINT_FORM);
+                let label = fields.label("landmark")?;
+                let point = fields.point()?;
+                fields.end()?;
+                self.add_vertex(line, Key::pose(label), point)?;
+                self.points.insert(Key::pose(label), line);
+            }
+            "EDGE_SE2" => self.edges.push(edge(fields("an edge", G2O_EDGE_FORM), line, Entries::Rows)?),
+            "EDGE2" => self.edges.push(edge(fields("an edge", TORO_EDGE_FORM), line, Entries::Edge2)?),
+            "ODOMETRY" => {
+                self.is_isam = true;
+                self.edges.push(edge(fields("an edge", ISAM_EDGE_FORM), line, Entries::Edge2)?);
+            }
+            "EDGE_SE2_XY" => {
+                let sighting =
+                    sighting(fields("a sighting", SIGHTING_FORM), line, Key::pose, Entries::Point)?;
+                self.points.entry(sighting.to).or_insert(line);
+                self.edges.push(sighting);
+            }
+            "LANDMARK" => {
+                let fields = fields("a sighting", ISAM_SIGHTING_FORM);
+                self.isam_sightings.push(sighting(fields, line, Key::landmark, Entries::PointRoot));
+            }
+            "EDGE_PRIOR_SE2" => {
+                let mut fields = fields("a prior", PRIOR_FORM);
+                let to = Key::pose(fields.label("pose")?);
+                let (relative_pose, turn) = fields.pose()?;
+                let entries = Entries::Rows(fields.entries("information matrix of six numbers")?);
+                fields.end()?;
+                self.priors.push(EdgeRecord {
+                    line,
+                    from: None,
+                    to,
+                    relative_pose,
+                    turn,
+                    entries,
+                    is_doubtful: false,
+                });
+            }
+            "EDGE_PRIOR_SE2_XY" => {
+                let mut fields = fields("a prior", POSITION_FORM);
+                let to = Key::pose(fields.label("pose")?);
+                let relative_pose = fields.point()?;
+                let entries = Entries::Point(fields.entries("information matrix of three numbers")?);
+                fields.end()?;
+                let (from, turn, is_doubtful) = (None, 0.0, false);
+                self.priors.push(EdgeRecord { line, from, to, relative_pose, turn, entries, is_doubtful });
+            }
+            "EDGE_SE2_SWITCHABLE" => {
+                let mut fields = fields("a switchable edge", SWITCHABLE_FORM);
+                let ends = ends(&mut fields)?;
+                fields.label("switch")?;
+                self.edges.push(measured(fields, line, ends, Entries::Rows, true)?);
+            }
+            "EDGE_SE2_MAXMIX" => {
+                let mut fields = fields("a mixture", MIXTURE_FORM);
+                let ends = ends(&mut fields)?;
+                fields.part("weight of the null hypothesis")?;
+                self.edges.push(measured(fields, line, ends, Entries::Rows, true)?);
+            }
+            "VERTEX_SWITCH" => {
+                let mut fields = fields("a switch", SWITCH_FORM);
+                fields.label("switch")?;
+                fields.number("value")?;
+                fields.end()?;
+            }
+            "EDGE_SWITCH_PRIOR" => {
+                let mut fields = fields("the prior of a switch", SWITCH_PRIOR_FORM);
+                fields.label("switch")?;
+                fields.one("value that is expected")?;
+                fields.positive("information")?;
+                fields.end()?;
+            }
+            "FIX" => {
+                let count = words.clone().count().max(1);
+                let mut fields = fields("a fixed pose", FIX_FORM);
+                for _ in 0..count {
+                    self.fixed.push((line, Key::pose(fields.label("pose")?)));
+                }
+            }
+            _ => return Ok(false),
         }
-        let relative_pose = self.pose()?;
-        let mut entries = [0.0; 6];
-        for entry in &mut entries {
-            *entry = self.number("information matrix of six numbers")?;
-        }
-        self.end()?;
-        let information = Information::new(arrange(entries)).map_err(|problem| ReadProblem::Information {
-            from,
-            to,
-            problem,
-        })?;
-        Ok(EdgeRecord { line, from, to, relative_pose, information })
+        Ok(true)
     }
 
-    fn end(mut self) -> Result<(), ReadProblem> {
-        let Fields { record, form, .. } = self;
-        match self.words.next() {
+    fn add_vertex(&mut self, line: usize, key: Key, pose: crate::Pose) -> Result<(), ReadProblem> {
+        match self.vertices.insert(key, (line, pose)) {
+            Some((first, _)) => Err(ReadProblem::RepeatedPose { label: key.label, first }),
             None => Ok(()),
-            Some(token) => Err(ReadProblem::Superfluous { record, token: token.to_owned(), form }),
         }
     }
+}
+
+/// The two poses of an edge.
+fn ends(fields: &mut Fields<'_>) -> Result<[u64; 2], ReadProblem> {
+    let ends = [fields.label("start pose")?, fields.label("end pose")?];
+    if ends[0] == ends[1] { Err(ReadProblem::SelfEdge(ends[0])) } else { Ok(ends) }
+}
+
+/// `from to x y theta`, and six numbers.
+fn edge(
+    mut fields: Fields<'_>,
+    line: usize,
+    arrange: fn([f64; 6]) -> Entries,
+) -> Result<EdgeRecord, ReadProblem> {
+    let ends = ends(&mut fields)?;
+    measured(fields, line, ends, arrange, false)
+}
+
+/// `x y theta`, and six numbers.
+fn measured(
+    mut fields: Fields<'_>,
+    line: usize,
+    ends: [u64; 2],
+    arrange: fn([f64; 6]) -> Entries,
+    is_doubtful: bool,
+) -> Result<EdgeRecord, ReadProblem> {
+    let [from, to] = ends.map(Key::pose);
+    let (relative_pose, turn) = fields.pose()?;
+    let entries = arrange(fields.entries("information matrix of six numbers")?);
+    fields.end()?;
+    Ok(EdgeRecord { line, from: Some(from), to, relative_pose, turn, entries, is_doubtful })
+}
+
+/// `pose landmark x y`, and three numbers.
+fn sighting(
+    mut fields: Fields<'_>,
+    line: usize,
+    key: fn(u64) -> Key,
+    arrange: fn([f64; 3]) -> Entries,
+) -> Result<EdgeRecord, ReadProblem> {
+    let (from, to) = (Key::pose(fields.label("pose")?), key(fields.label("landmark")?));
+    if from == to {
+        return Err(ReadProblem::SelfEdge(from.label));
+    }
+    let relative_pose = fields.point()?;
+    let entries = arrange(fields.entries("information matrix of three numbers")?);
+    fields.end()?;
+    Ok(EdgeRecord { line, from: Some(from), to, relative_pose, turn: 0.0, entries, is_doubtful: false })
 }

@@ -15,7 +15,7 @@ fn observation(start: u32, end: u32) -> Observation {
         start: PoseId(start),
         end: PoseId(end),
         relative_pose: Pose::new(8.0, 0.0, 0.0),
-        covariance: Covariance::from_standard_deviations(0.1, 0.2, 0.03).unwrap(),
+        information: Covariance::from_standard_deviations(0.1, 0.2, 0.03).unwrap().information(),
     }
 }
 

@@ -62,7 +62,7 @@ fn relative_covariances_of_a_chain_are_compounded() {
     let marginals = Marginals::new(&graph).unwrap();
     let link = |edge: &Edge| hssh_metrics::UncertainPose {
         mean: edge.relative_pose,
-        covariance: edge.start_frame_information().covariance(),
+        covariance: edge.start_frame_information().covariance().unwrap(),
     };
     let links: Vec<_> = graph.edges()[4..12].iter().map(link).collect();
     let compound = hssh_metrics::UncertainPose::compound(&links).unwrap().unwrap();

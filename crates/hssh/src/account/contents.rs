@@ -4,10 +4,13 @@ use std::collections::BTreeMap;
 use std::fmt;
 
 use hssh_causal::schema::{Automaton, Change, Refutation, Schema, Trace, View, numbered_views};
-use hssh_causal::{Exploration, NamedStar};
+use hssh_causal::{Doubt, Exploration, NamedStar};
 use serde::{Deserialize, Serialize};
 
 use crate::answer::counted;
+
+/// How many questions the text lists.
+const MOST_QUESTIONS: usize = 5;
 
 /// What is in an exploration.
 #[derive(Clone, PartialEq, Debug, Serialize, Deserialize)]
@@ -24,6 +27,8 @@ pub struct ContentsAccount {
     pub travels_with_odometry: u64,
     /// What places look like, in the order of the exploration.
     pub star_types: Vec<StarTypeContents>,
+    /// What is worth asking about: measurements that are possible and hardly meant.
+    pub questions: Vec<String>,
     /// The same at the causal level, if it was asked for.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub causal: Option<CausalContents>,
@@ -97,6 +102,7 @@ impl ContentsAccount {
             travels: travels.len() as u64,
             travels_with_odometry: travels.iter().filter(|travel| travel.odometry.is_some()).count() as u64,
             star_types: exploration.star_types().iter().enumerate().map(star_type).collect(),
+            questions: exploration.doubts().iter().map(Doubt::to_string).collect(),
             causal: trace.map(CausalContents::new),
         }
     }
@@ -138,6 +144,12 @@ impl fmt::Display for ContentsAccount {
         let width = self.star_types.iter().map(|star| star.name.chars().count()).max().unwrap_or(0);
         for star in &self.star_types {
             writeln!(f, "  {:<width$}  {:>3} ×  {}", star.name, star.visits, star.star)?;
+        }
+        for question in self.questions.iter().take(MOST_QUESTIONS) {
+            writeln!(f, "question: {question}")?;
+        }
+        if let Some(more) = self.questions.len().checked_sub(MOST_QUESTIONS).filter(|&more| more > 0) {
+            writeln!(f, "and {more} more questions of this kind")?;
         }
         self.causal.as_ref().map_or(Ok(()), |causal| causal.fmt(f))
     }

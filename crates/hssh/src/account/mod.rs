@@ -12,5 +12,5 @@ pub use drive::{DriveAccount, DrivePlace, DriveStop};
 pub use places::{
     ConstrictionAccount, GatewayAccount, GridSize, PlaceAccount, PlacesAccount, StarEndAccount,
 };
-pub use pose_graph::{JudgedEdge, LabeledPose, PoseGraphAccount, SkippedRecord};
+pub use pose_graph::{JudgedEdge, LabeledPoint, LabeledPose, PoseGraphAccount, SkippedRecord};
 pub use survey::{SurveyAccount, SurveyedEnd, SurveyedTravel, SurveyedVisit};

@@ -18,10 +18,19 @@ pub struct PoseGraphAccount {
     pub version: u32,
     /// The file, as it was given.
     pub name: String,
-    /// How many edges there are.
+    /// What of the file should be in this answer and is not, in words, if there is anything.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub partial: Option<String>,
+    /// How many edges there are, priors not among them.
     pub edges: usize,
     /// How many of them close loops.
     pub closures: usize,
+    /// How many priors there are: poses measured in the frame of the world.
+    pub priors: usize,
+    /// Into how many parts the graph falls that no measurement joins.
+    pub parts: usize,
+    /// Poses that the file holds where they are.
+    pub fixed: Vec<u64>,
     /// Poses that are held where they are because nothing else holds their component.
     pub held: Vec<u64>,
     /// Degrees of freedom: what χ² is expected to be if the covariances are honest.
@@ -53,17 +62,23 @@ pub struct PoseGraphAccount {
     pub seconds_solving: f64,
     /// Edges that count less than the others, or not at all.
     pub doubted: Vec<JudgedEdge>,
-    /// Lines of the file that are no pose or edge in the plane.
+    /// What is worth knowing about how the file was read.
+    pub remarks: Vec<String>,
+    /// Records of the file that are no pose or edge in the plane, each type once.
     pub skipped: Vec<SkippedRecord>,
     /// The poses.
     pub poses: Vec<LabeledPose>,
+    /// The landmarks.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub landmarks: Vec<LabeledPoint>,
 }
 
 /// An edge, and how it fits.
 #[derive(Clone, PartialEq, Debug, Serialize, Deserialize)]
 pub struct JudgedEdge {
-    /// The label of its first pose.
-    pub from: u64,
+    /// The label of its first pose; absent of a prior.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub from: Option<u64>,
     /// The label of its second pose.
     pub to: u64,
     /// Its χ².
@@ -72,13 +87,26 @@ pub struct JudgedEdge {
     pub weight: f64,
 }
 
-/// A line of a file that was passed over.
+/// Lines of a file that were passed over, all of one type.
 #[derive(Clone, PartialEq, Eq, Debug, Serialize, Deserialize)]
 pub struct SkippedRecord {
-    /// Its number, from 1 on.
+    /// The number of the first, from 1 on.
     pub line: usize,
-    /// Its first word.
+    /// Their first word.
     pub record: String,
+    /// How many there are.
+    pub count: usize,
+}
+
+/// A landmark under its label.
+#[derive(Clone, Copy, PartialEq, Debug, Serialize, Deserialize)]
+pub struct LabeledPoint {
+    /// The label.
+    pub landmark: u64,
+    /// Metres.
+    pub x: f64,
+    /// Metres.
+    pub y: f64,
 }
 
 /// A pose under its label.
@@ -98,27 +126,56 @@ impl PoseGraphAccount {
     /// Whether χ² is far beyond what chance makes of honest covariances: its standard deviation is √(2 f).
     fn is_contradictory(&self) -> bool {
         let freedom = self.degrees_of_freedom as f64;
-        self.finished && self.chi2 > freedom + 10.0 * (2.0 * freedom).sqrt()
+        self.finished && self.degrees_of_freedom > 0 && self.chi2 > freedom + 10.0 * (2.0 * freedom).sqrt()
     }
 
     /// What holds the graph in place.
     fn anchorage(&self) -> String {
-        match &self.held[..] {
-            [] => "held where the file fixes it".to_owned(),
-            [only] => format!("pose {only} is held where it is"),
-            [first, ..] => format!(
-                "in {} parts that no edge joins, each held at its first pose: {first}, …",
-                self.held.len()
-            ),
+        let mut held = Vec::new();
+        if self.priors > 0 {
+            held.push(format!("{} in the frame of the world", counted(self.priors, "prior")));
         }
+        if !self.fixed.is_empty() {
+            held.push(format!("{} fixed by the file", named(&self.fixed)));
+        }
+        match &self.held[..] {
+            [] => {}
+            [only] if held.is_empty() => held.push(format!("pose {only} is held where it is")),
+            _ => held.push(format!("{} held, for nothing else holds its part", named(&self.held))),
+        }
+        let parts = if self.parts > 1 {
+            format!("in {} parts that no edge joins; ", self.parts)
+        } else {
+            String::new()
+        };
+        parts + &held.join(", ")
     }
+
+    /// How an edge is named.
+    fn name(edge: &JudgedEdge) -> String {
+        edge.from.map_or_else(|| format!("prior of {}", edge.to), |from| format!("{from} → {}", edge.to))
+    }
+}
+
+/// Poses by their labels, the first few of them.
+fn named(poses: &[u64]) -> String {
+    let shown: Vec<String> = poses.iter().take(4).map(u64::to_string).collect();
+    let more = if poses.len() > shown.len() { ", …" } else { "" };
+    format!("{} {}{more}", if poses.len() == 1 { "pose" } else { "poses" }, shown.join(", "))
 }
 
 impl fmt::Display for PoseGraphAccount {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        if let Some(partial) = &self.partial {
+            writeln!(f, "PARTIAL: {partial}")?;
+        }
+        let landmarks = match self.landmarks.len() {
+            0 => String::new(),
+            some => format!(", {}", counted(some, "landmark")),
+        };
         writeln!(
             f,
-            "{}: {}, {}, of which {}; {}",
+            "{}: {}{landmarks}, {}, of which {}; {}",
             self.name,
             counted(self.poses.len(), "pose"),
             counted(self.edges, "edge"),
@@ -141,8 +198,11 @@ impl fmt::Display for PoseGraphAccount {
         if let Some(cost) = self.robust_cost {
             writeln!(f, "  robust cost        {}", significant(cost))?;
         }
-        if let Some(JudgedEdge { from, to, chi2, .. }) = self.worst {
-            writeln!(f, "  worst edge         {from} → {to}, χ² {}", significant(chi2))?;
+        if let Some(worst) = &self.worst {
+            writeln!(f, "  worst edge         {}, χ² {}", Self::name(worst), significant(worst.chi2))?;
+        }
+        for remark in &self.remarks {
+            writeln!(f, "  remark             {remark}")?;
         }
         writeln!(f, "  {:<18} {}", counted(self.steps, &self.counted), self.ending)?;
         if self.is_contradictory() && self.doubted.is_empty() {
@@ -155,14 +215,19 @@ impl fmt::Display for PoseGraphAccount {
         let [reading, solving] = [self.seconds_reading, self.seconds_solving].map(|seconds| 1e3 * seconds);
         writeln!(f, "  time               reading {reading:.1} ms, solving {solving:.1} ms")?;
         let doubted = self.doubted.iter().map(|edge| match edge.weight {
-            0.0 => format!("{} → {} refused, χ² {}", edge.from, edge.to, significant(edge.chi2)),
-            weight => {
-                format!("{} → {} counts {weight:.1e}, χ² {}", edge.from, edge.to, significant(edge.chi2))
-            }
+            0.0 => format!("{} refused, χ² {}", Self::name(edge), significant(edge.chi2)),
+            weight => format!("{} counts {weight:.1e}, χ² {}", Self::name(edge), significant(edge.chi2)),
         });
         list(f, "doubted", doubted)?;
         let skipped = self.skipped.iter();
-        list(f, "skipped", skipped.map(|skipped| format!("line {}: {}", skipped.line, skipped.record)))
+        list(
+            f,
+            "skipped",
+            skipped.map(|SkippedRecord { line, record, count }| match count {
+                1 => format!("line {line}: {record}"),
+                _ => format!("from line {line} on: {record}, {count} times"),
+            }),
+        )
     }
 }
 

@@ -80,7 +80,7 @@ impl Answer {
         }
         if self.search.order == SearchOrder::Proof || self.search.objective == Objective::Posterior {
             let open = match &certificate.open {
-                Some(open) => format!("any other has at least {}", worth(open)),
+                Some(open) => format!("any map that was not found has at least {}", worth(open)),
                 None => "nothing is left open".to_owned(),
             };
             let verdict = if certificate.proved { "proved" } else { "not proved" };

@@ -12,6 +12,16 @@ pub enum WarningKind {
     MessageLeftOut,
     /// The log breaks off.
     BreaksOff,
+    /// Beams of which the word is no range, and which were taken to have brought nothing back.
+    BeamsWithoutRange,
+    /// The odometry jumps as no robot moves.
+    OdometryJump,
+    /// The limit of the laser was taken from its readings.
+    RangeLimit,
+    /// The laser is not at the robot's axis.
+    LaserPose,
+    /// Odometry that is possible and hardly meant, such as degrees for radians.
+    Questionable,
     /// The robot came in or went out where the star has no gateway.
     OffGateways,
     /// Something like a place that was sighted too seldom.

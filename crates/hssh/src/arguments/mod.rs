@@ -84,7 +84,7 @@ pub(crate) struct MapArguments {
     pub(crate) grid: Option<PathBuf>,
     /// With a laser log: let the likeness of local maps count with this weight. Neighboring cells of a local map are
     /// not independent, so that 1 is too much [default: 0].
-    #[arg(long, value_name = "WEIGHT")]
+    #[arg(long, value_name = "WEIGHT", value_parser = not_negative)]
     pub(crate) likeness: Option<f64>,
     /// With a laser log: write pictures of every stage into this folder: the track, the local map and the star of
     /// each visit, the map, and the building.
@@ -138,8 +138,12 @@ pub(crate) struct ExplainArguments {
 
 #[derive(Debug, Args)]
 pub(crate) struct GraphArguments {
-    /// The pose graph: g2o, GTSAM's files of that form, or TORO; `-` reads standard input.
+    /// The pose graph: g2o, GTSAM's and Vertigo's files of that form, TORO or iSAM, plain or gzip; `-` reads standard
+    /// input.
     pub(crate) file: PathBuf,
+    /// Refuse a file of which something that matters cannot be used, instead of saying so in the first line.
+    #[arg(long)]
+    pub(crate) strict: bool,
 
     /// How to minimize χ².
     #[arg(long, value_enum, default_value_t = MethodOption::Safeguarded, value_name = "HOW", help_heading = "Solver")]
@@ -226,6 +230,12 @@ pub(crate) fn positive(text: &str) -> Result<f64, String> {
     let number: Option<f64> = text.parse().ok();
     let is_right = |number: &f64| *number > 0.0 && number.is_finite();
     number.filter(is_right).ok_or_else(|| "write a positive number, like 0.5".to_owned())
+}
+
+pub(crate) fn not_negative(text: &str) -> Result<f64, String> {
+    let number: Option<f64> = text.parse().ok();
+    let is_right = |number: &f64| *number >= 0.0 && number.is_finite();
+    number.filter(is_right).ok_or_else(|| "write a number that is not negative, like 0.5".to_owned())
 }
 
 impl MapArguments {

@@ -109,8 +109,22 @@ impl SearchArguments {
         options.limits.seconds = self.max_time.or(options.limits.seconds);
         options.limits.mebibytes = self.max_memory.unwrap_or(options.limits.mebibytes);
         options.limits.travels = self.travels.or(options.limits.travels);
+        self.refuse_useless_weights(&options)?;
         options.check()?;
         Ok(options)
+    }
+
+    /// Weights count with the prior that they are the weights of.
+    fn refuse_useless_weights(&self, options: &MappingOptions) -> Result<(), Failure> {
+        let posterior = &options.posterior;
+        let usual =
+            if posterior.score == MetricalScore::Evidence { PriorKind::Flat } else { PriorKind::Simplicity };
+        if self.posterior.weights.is_some() && posterior.prior.unwrap_or(usual) != PriorKind::Simplicity {
+            let help =
+                "--weights are those of the prior of simplicity: add --prior simplicity, or leave them out";
+            return Err(Failure::Usage(help.to_owned()));
+        }
+        Ok(())
     }
 
     fn file(&self) -> Result<MappingOptions, Failure> {
@@ -156,7 +170,9 @@ fn seconds(text: &str) -> Result<f64, String> {
 fn weights(text: &str) -> Result<Simplicity, String> {
     let numbers: Option<Vec<f64>> = text.split(',').map(|number| number.trim().parse().ok()).collect();
     match numbers.as_deref() {
-        Some(&[c1, c2, c3]) => Ok(Simplicity { c1, c2, c3 }),
-        _ => Err("write three numbers, like 0,2,1".to_owned()),
+        Some(&[c1, c2, c3]) if [c1, c2, c3].iter().all(|weight| weight.is_finite() && *weight >= 0.0) => {
+            Ok(Simplicity { c1, c2, c3 })
+        }
+        _ => Err("write three numbers that are not negative, like 0,2,1".to_owned()),
     }
 }

@@ -6,9 +6,10 @@ use hssh_causal::schema::{Sight, Trace, Turning, view_graph_dot};
 use crate::arguments::CheckArguments;
 use crate::failure::{Failure, Status};
 use crate::input::read_exploration;
-use crate::output::{print, print_json, write_file};
+use crate::output::{check_outputs, print, print_json, write_file};
 
 pub(crate) fn run(arguments: &CheckArguments) -> Result<Status, Failure> {
+    check_outputs(&[&arguments.file], [arguments.dot.as_ref()])?;
     let exploration = read_exploration(&arguments.file)?;
     let trace = if arguments.schemas || arguments.dot.is_some() {
         let help = "--schemas and --dot need an exploration with travels: this one has none";
@@ -17,15 +18,15 @@ pub(crate) fn run(arguments: &CheckArguments) -> Result<Status, Failure> {
     } else {
         None
     };
-    if let (Some(file), Some(trace)) = (&arguments.dot, &trace) {
-        write_file(file, &view_graph_dot(trace))?;
-    }
     let name = arguments.file.display().to_string();
     let contents = ContentsAccount::new(&name, &exploration, trace.as_ref().filter(|_| arguments.schemas));
     if arguments.json {
         print_json(&contents)?;
     } else {
         print(&contents.to_string())?;
+    }
+    if let (Some(file), Some(trace)) = (&arguments.dot, &trace) {
+        write_file(file, &view_graph_dot(trace))?;
     }
     Ok(Status::Found)
 }

@@ -1,20 +1,26 @@
 //! `hssh simulate`: a robot drives through a grid map and keeps a laser log.
 
+use std::path::{Path, PathBuf};
+
 use hssh::account::DriveAccount;
 use hssh_draw::{GridPicture, TOLD_WAY, TRUE_WAY, draw_grid};
-use hssh_local::{OccupancyGrid, PlaceNumber, UnknownSpace, read_map};
+use hssh_local::{OccupancyGrid, PlaceNumber, UnknownSpace};
 use hssh_metrics::Pose;
 use hssh_world::robot::{Drive, Ending, Moment, RobotOptions, Strategy, drive};
 use hssh_world::{floor_plan, floors};
 
 use crate::arguments::SimulateArguments;
 use crate::failure::{Failure, Status};
-use crate::output::{print, to_json, write_file};
+use crate::input::read_grid;
+use crate::output::{Written, check_outputs, print, to_json, write_file};
 
 /// Metres per cell of the floors that come with the program.
 const RESOLUTION: f64 = 0.1;
 
 pub(crate) fn run(arguments: &SimulateArguments) -> Result<Status, Failure> {
+    let SimulateArguments { output, truth, svg, .. } = arguments;
+    let inputs: Vec<&Path> = arguments.map.iter().map(PathBuf::as_path).collect();
+    check_outputs(&inputs, [Some(output), truth.as_ref(), svg.as_ref()])?;
     let (name, grid) = map(arguments)?;
     let robot = robot(arguments).with_noise(arguments.noise);
     let strategy = match &arguments.visit[..] {
@@ -24,15 +30,21 @@ pub(crate) fn run(arguments: &SimulateArguments) -> Result<Status, Failure> {
     };
     let drive = drive(&grid, arguments.start, strategy, &robot, arguments.seed)
         .map_err(|error| Failure::Usage(format!("{name}: {error}")))?;
-    write_file(&arguments.output, &drive.to_carmen())?;
     let account = DriveAccount::new(&name, &drive);
-    if let Some(file) = &arguments.truth {
-        write_file(file, &to_json(&account)?)?;
-    }
-    if let Some(file) = &arguments.svg {
-        write_file(file, &picture(&grid, &drive))?;
-    }
     print(&if arguments.json { to_json(&account)? } else { account.to_string() })?;
+    let mut written = Written::default();
+    let log = write_file(output, &drive.to_carmen());
+    if log.is_err() {
+        print(&drive.to_carmen())?;
+    }
+    written.note(log);
+    if let Some(file) = truth {
+        written.note(to_json(&account).and_then(|text| write_file(file, &text)));
+    }
+    if let Some(file) = svg {
+        written.note(write_file(file, &picture(&grid, &drive)));
+    }
+    written.done()?;
     Ok(if drive.ending == Ending::Done { Status::Found } else { Status::Stopped })
 }
 
@@ -54,7 +66,7 @@ fn robot(arguments: &SimulateArguments) -> RobotOptions {
 /// The map to drive through, and what to call it.
 fn map(arguments: &SimulateArguments) -> Result<(String, OccupancyGrid), Failure> {
     match (&arguments.map, &arguments.floor) {
-        (Some(file), _) => Ok((file.display().to_string(), read_map(file)?)),
+        (Some(file), _) => Ok((file.display().to_string(), read_grid(file)?)),
         (None, Some(name)) => Ok((name.clone(), floor(name)?)),
         (None, None) => Err(Failure::Usage(format!(
             "there is nowhere to drive: give the YAML file of a map, or --floor with one of {}",

@@ -3,36 +3,42 @@
 use std::path::Path;
 
 use hssh::account::{PlaceAccount, PlacesAccount};
+use hssh::kind::FileKind;
 use hssh::pipeline::{MappingOptions, SurveyedLog};
 use hssh_draw::{GridPicture, draw_grid};
 use hssh_local::{
     DistanceField, DoorOptions, LocalMapOptions, Neighborhood, Occupancy, OccupancyGrid, PlaceGraph,
-    PlaceOptions, Visit, doors, global_map, neighborhood, read_floor_plan, read_map,
+    PlaceOptions, Visit, doors, global_map, neighborhood, read_floor_plan,
 };
 use hssh_metrics::Pose;
 
 use crate::arguments::StarsArguments;
 use crate::failure::{Failure, Status};
-use crate::input::{holds_log, surveyed};
-use crate::output::{print, print_json, write_file};
+use crate::input::{Source, read_grid, surveyed};
+use crate::output::{check_outputs, print, print_json, write_file};
 
 /// How far the part of the map that is looked at around one point reaches, in metres, beyond the shallowest way out.
 const MARGIN: f64 = 6.5;
 
 pub(crate) fn run(options: &StarsArguments) -> Result<Status, Failure> {
-    if holds_log(&options.map)? {
-        return along(options);
-    }
+    check_outputs(&[&options.map], [options.svg.as_ref()])?;
+    let source = Source::open(&options.map)?;
+    let is_yaml = options.map.extension().is_some_and(|ending| ending == "yaml" || ending == "yml");
+    let grid = match source.kind() {
+        FileKind::LaserLog(_) => return along(options, source),
+        FileKind::MapDescription => read(&options.map, true, options.resolution)?,
+        FileKind::Text | FileKind::Empty if is_yaml => read(&options.map, true, options.resolution)?,
+        FileKind::Image(_) => read(&options.map, false, options.resolution)?,
+        _ => return Err(source.unfit("a grid map (YAML or image) or a laser log")),
+    };
     let parameters = options.parameters();
-    let grid = read(&options.map, options.resolution)?;
     match options.at {
         Some(point) => around(&grid, point, &parameters, options),
         None => everywhere(&grid, &parameters, options),
     }
 }
 
-fn read(file: &Path, resolution: Option<f64>) -> Result<OccupancyGrid, Failure> {
-    let is_yaml = file.extension().is_some_and(|ending| ending == "yaml" || ending == "yml");
+fn read(file: &Path, is_yaml: bool, resolution: Option<f64>) -> Result<OccupancyGrid, Failure> {
     match resolution {
         None if !is_yaml => Err(Failure::Usage(format!(
             "{} has no YAML file to say how large its pixels are: add --resolution with the metres per pixel, such as 0.05",
@@ -43,7 +49,7 @@ fn read(file: &Path, resolution: Option<f64>) -> Result<OccupancyGrid, Failure> 
             file.display()
         ))),
         Some(resolution) => Ok(read_floor_plan(file, resolution)?),
-        None => Ok(read_map(file)?),
+        None => read_grid(file),
     }
 }
 
@@ -54,6 +60,8 @@ fn everywhere(
     options: &StarsArguments,
 ) -> Result<Status, Failure> {
     let graph = PlaceGraph::new(grid, parameters).map_err(|error| failure(&options.map, error))?;
+    let report = PlacesAccount::of_map(&options.map.display().to_string(), &graph, grid);
+    tell(&report, options)?;
     if let Some(file) = &options.svg {
         let places = graph.places.iter().map(|place| (place.center, &place.star)).collect();
         let doors = doors(grid, &graph.constrictions, &DoorOptions::default());
@@ -61,24 +69,14 @@ fn everywhere(
         let picture = GridPicture { skeleton, places, constrictions: &doors, ..GridPicture::default() };
         write_file(file, &draw_grid(grid, &picture))?;
     }
-    let report = PlacesAccount::of_map(&options.map.display().to_string(), &graph, grid);
-    tell(&report, options)?;
     Ok(if report.places.is_empty() { Status::NothingConsistent } else { Status::Found })
 }
 
 /// The places that a robot visited, in the frame of its track.
-fn along(options: &StarsArguments) -> Result<Status, Failure> {
+fn along(options: &StarsArguments, source: Source) -> Result<Status, Failure> {
     let usual = MappingOptions::default();
     let SurveyedLog { log, survey } =
-        surveyed(&options.map, &MappingOptions { places: options.places.choice(), ..usual })?;
-    if let Some(file) = &options.svg {
-        let track: Vec<Pose> = survey.track.scans.iter().map(|scan| scan.pose).collect();
-        let grid = global_map(&log, &track, &LocalMapOptions::default())
-            .map_err(|error| failure(&options.map, error))?;
-        let place = |visit: &Visit| [visit.frame.x, visit.frame.y];
-        let places = survey.visits.iter().map(|visit| (place(visit), &visit.star)).collect();
-        write_file(file, &draw_grid(&grid, &GridPicture { places, ..GridPicture::default() }))?;
-    }
+        surveyed(&options.map, source, &MappingOptions { places: options.places.choice(), ..usual })?;
     let clearance = |visit: &Visit| {
         let lattice = *visit.grid.lattice();
         let field = DistanceField::new(lattice, |index| visit.grid.cells()[index] == Occupancy::Occupied);
@@ -90,6 +88,14 @@ fn along(options: &StarsArguments) -> Result<Status, Failure> {
     };
     let places: Vec<PlaceAccount> = survey.visits.iter().map(place).collect();
     tell(&PlacesAccount::along_log(&options.map.display().to_string(), places), options)?;
+    if let Some(file) = &options.svg {
+        let track: Vec<Pose> = survey.track.scans.iter().map(|scan| scan.pose).collect();
+        let grid = global_map(&log, &track, &LocalMapOptions::default())
+            .map_err(|error| failure(&options.map, error))?;
+        let place = |visit: &Visit| [visit.frame.x, visit.frame.y];
+        let places = survey.visits.iter().map(|visit| (place(visit), &visit.star)).collect();
+        write_file(file, &draw_grid(&grid, &GridPicture { places, ..GridPicture::default() }))?;
+    }
     Ok(Status::Found)
 }
 
@@ -104,6 +110,13 @@ fn around(
     let side = 2.0 * (parameters.skeleton.shallowest_branch + MARGIN);
     let window = grid.window(point, side).ok_or_else(outside)?;
     let found = neighborhood(&window, point, parameters).map_err(|error| failure(&options.map, error))?;
+    let Neighborhood { kind, center, clearance, star, .. } = &found;
+    let place = PlaceAccount::new(*kind, *center, *clearance, star);
+    if options.json {
+        print_json(&place)?;
+    } else {
+        print(&place.to_text(0))?;
+    }
     if let Some(file) = &options.svg {
         let picture = GridPicture {
             skeleton: Some(&found.graph.skeleton),
@@ -112,13 +125,6 @@ fn around(
             ..GridPicture::default()
         };
         write_file(file, &draw_grid(&window, &picture))?;
-    }
-    let Neighborhood { kind, center, clearance, star, .. } = &found;
-    let place = PlaceAccount::new(*kind, *center, *clearance, star);
-    if options.json {
-        print_json(&place)?;
-    } else {
-        print(&place.to_text(0))?;
     }
     Ok(Status::Found)
 }

@@ -133,10 +133,19 @@ impl SurveyedLog {
         let mut warnings = Vec::new();
         for warning in &self.log.warnings {
             let (kind, line) = match warning {
-                LogWarning::Message { line, .. } => (WarningKind::MessageLeftOut, *line),
-                LogWarning::BreaksOff { line, .. } => (WarningKind::BreaksOff, *line),
+                LogWarning::Message { line, .. } => (WarningKind::MessageLeftOut, Some(*line)),
+                LogWarning::BreaksOff { line, .. } => (WarningKind::BreaksOff, Some(*line)),
+                LogWarning::OddBeams { line, .. } => (WarningKind::BeamsWithoutRange, Some(*line)),
+                LogWarning::Jump { line, .. } => (WarningKind::OdometryJump, Some(*line)),
+                LogWarning::RangeLimit { .. } => (WarningKind::RangeLimit, None),
+                LogWarning::LaserPose { .. } => (WarningKind::LaserPose, None),
             };
-            AnswerWarning::record(&mut warnings, kind, Spot::Line(line), || warning.to_string());
+            match line {
+                Some(line) => {
+                    AnswerWarning::record(&mut warnings, kind, Spot::Line(line), || warning.to_string());
+                }
+                None => warnings.push(AnswerWarning::once(kind, warning.to_string())),
+            }
         }
         for warning in &self.survey.warnings {
             let (kind, spot) = match *warning {
@@ -152,24 +161,6 @@ impl SurveyedLog {
         warnings
     }
 }
-
-/// Whether the beginning of a file is that of a laser log: it is compressed, or its first record is a CARMEN message. An
-/// exploration begins with a parenthesis or a comment of its own kind.
-#[must_use]
-pub fn is_log(beginning: &[u8]) -> bool {
-    let text = String::from_utf8_lossy(beginning);
-    let mut records = text.lines().map(str::trim).filter(|line| !line.is_empty() && !line.starts_with('#'));
-    let is_message = |line: &str| {
-        let name = line.split_whitespace().next().unwrap_or_default();
-        let is_of_names =
-            |letter: char| letter.is_ascii_uppercase() || letter.is_ascii_digit() || letter == '_';
-        name.len() > 2 && name.chars().all(is_of_names)
-    };
-    beginning.starts_with(&GZIP) || records.next().is_some_and(is_message)
-}
-
-/// What a file compressed by gzip begins with.
-const GZIP: [u8; 2] = [0x1f, 0x8b];
 
 impl From<LogError> for PipelineError {
     fn from(error: LogError) -> Self {

@@ -9,7 +9,7 @@ mod places;
 
 pub use engine::Monitor;
 pub use error::{PipelineError, SearchFailure};
-pub use input::{Input, SurveyedLog, is_log};
+pub use input::{Input, SurveyedLog};
 pub use options::{
     GenusOrder, MappingOptions, MetricalScore, OptionsError, PosteriorChoice, PriorKind, SearchChoice,
     SearchLimits, SearchMethod,
@@ -58,6 +58,12 @@ pub fn map(input: &Input, options: &MappingOptions, monitor: &Arc<Monitor>) -> R
     let considered = options.limits.travels.unwrap_or(usize::MAX).min(input.exploration.travels().len());
     let exploration = input.exploration.prefix(considered);
     let mut warnings = input.surveyed.as_ref().map(SurveyedLog::warnings).unwrap_or_default();
+    if input.surveyed.is_none() {
+        for doubt in exploration.doubts() {
+            let spot = Spot::Visit(doubt.travel as u64 + 1);
+            AnswerWarning::record(&mut warnings, WarningKind::Questionable, spot, || doubt.to_string());
+        }
+    }
     options.search.threads = useful_threads(options.search.threads, &mut warnings);
     let method = options.method_for(&exploration)?;
     let likeness = input.surveyed.as_ref().filter(|_| options.posterior.likeness != 0.0);

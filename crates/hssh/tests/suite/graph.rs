@@ -34,6 +34,7 @@ fn the_main_job() {
         session(&[WRONG, "--robust", "dcs"]),
         session(&["fixtures/graphs/disconnected.g2o"]),
         session(&["fixtures/graphs/contradictory.g2o"]),
+        session(&["fixtures/graphs/zero-information.g2o"]),
         session(&[TWO_LAPS, "--method", "linearize-once", "--start", "odometry"]),
         session(&[TWO_LAPS, "--method", "relaxation", "--max-iterations", "3"]),
     ];
@@ -111,4 +112,83 @@ fn reads_standard_input() {
     let output = hssh_reading(TORO, &["graph", "-", "--json"]);
     let answer: Value = serde_json::from_slice(&output.stdout).unwrap();
     assert_eq!(answer["edges"], 37);
+}
+
+/// A file of which something that matters is not in the answer says so first, and --strict refuses it.
+#[test]
+fn an_answer_that_leaves_out_a_measurement_says_so_first() {
+    let file = scratch("graph").join("partial.g2o");
+    let whole = std::fs::read_to_string(root().join(TWO_LAPS)).unwrap();
+    std::fs::write(&file, format!("{whole}EDGE_RANGE 0 3 1.5 10\nPARAMS_SE2OFFSET 0 0 0 0\n")).unwrap();
+    let file = file.to_string_lossy().into_owned();
+    let said = common::text(&graph(&[&file]).stdout);
+    assert!(said.starts_with("PARTIAL: 1 record of the file is not in this answer: `EDGE_RANGE`"), "{said}");
+    assert!(answer(&[&file])["partial"].as_str().unwrap().contains("EDGE_RANGE"));
+    let refused = graph(&[&file, "--strict"]);
+    assert_eq!((refused.status.code(), refused.stdout.len()), (Some(2), 0));
+    assert!(common::text(&refused.stderr).contains("EDGE_RANGE"));
+    assert_eq!(graph(&[TWO_LAPS, "--strict"]).status.code(), Some(0));
+}
+
+/// Closures that the file holds for doubtful are believed if they fit, and refused if they do not.
+#[test]
+fn doubtful_closures_are_decided() {
+    let file = scratch("graph").join("switchable.g2o");
+    let text = std::fs::read_to_string(root().join(WRONG)).unwrap();
+    let doubtful = |line: &str| {
+        let words: Vec<&str> = line.split_whitespace().collect();
+        match words[..] {
+            ["EDGE_SE2", from, to, ..] if from.parse::<i64>().unwrap() + 1 != to.parse::<i64>().unwrap() => {
+                format!("EDGE_SE2_SWITCHABLE {from} {to} 900 {}\n", words[3..].join(" "))
+            }
+            _ => format!("{line}\n"),
+        }
+    };
+    std::fs::write(&file, text.lines().map(doubtful).collect::<String>()).unwrap();
+    let [ours, graduated] =
+        [vec![file.to_str().unwrap()], vec![WRONG, "--graduated"]].map(|flags| answer(&flags));
+    assert!((ours["chi2"].as_f64().unwrap() - graduated["chi2"].as_f64().unwrap()).abs() < 1e-6, "{ours}");
+    assert_eq!(ours["doubted"].as_array().unwrap().len(), 2);
+    assert!(ours["remarks"][0].as_str().unwrap().contains("doubtful"));
+}
+
+/// What the file fixes and what is held for want of anything else are told apart, part by part.
+#[test]
+fn every_part_says_what_holds_it() {
+    let file = scratch("graph").join("parts.g2o");
+    let edge = "1 0 0 100 0 0 100 0 100";
+    std::fs::write(&file, format!("EDGE_SE2 0 1 {edge}\nEDGE_SE2 5 6 {edge}\nFIX 6\nEDGE_SE2 8 9 {edge}\n"))
+        .unwrap();
+    let found = answer(&[file.to_str().unwrap()]);
+    assert_eq!(
+        (&found["parts"], &found["fixed"], &found["held"]),
+        (&3.into(), &serde_json::json!([6]), &serde_json::json!([0, 8]))
+    );
+    let said = common::text(&graph(&[file.to_str().unwrap()]).stdout);
+    assert!(
+        said.contains("in 3 parts that no edge joins; pose 6 fixed by the file, poses 0, 8 held"),
+        "{said}"
+    );
+}
+
+/// A chain cannot contradict itself, whatever rounding leaves.
+#[test]
+fn a_chain_has_nothing_to_contradict() {
+    let file = scratch("graph").join("chain.g2o");
+    let edges = (0..30).map(|pose| format!("EDGE_SE2 {pose} {} 1.1 0.3 0.7 400 0 0 400 0 2500\n", pose + 1));
+    std::fs::write(&file, edges.collect::<String>()).unwrap();
+    let said = common::text(&graph(&[file.to_str().unwrap()]).stdout);
+    assert!(said.contains("0 expected") && !said.contains("contradict"), "{said}");
+}
+
+/// What too few measurements hold is refused by name.
+#[test]
+fn what_floats_is_named() {
+    let file = scratch("graph").join("floating.g2o");
+    std::fs::write(&file, "EDGE_SE2 0 1 1 0 0 100 0 0 100 0 100\nEDGE_SE2 1 2 1 0 0 100 0 0 100 0 0\n")
+        .unwrap();
+    let refused = graph(&[file.to_str().unwrap()]);
+    assert_eq!(refused.status.code(), Some(2));
+    let said = common::text(&refused.stderr);
+    assert!(said.contains("the poses 2 could move"), "{said}");
 }

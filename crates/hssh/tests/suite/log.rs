@@ -62,7 +62,7 @@ fn visits_are_of_scans(answer: &serde_json::Value) {
 fn what_is_no_usable_log_is_refused() {
     let cases: [(&str, &[u8], &str); 4] = [
         ("odometry-only.log", b"PARAM robot_width 1\nODOM 0 0 0 0 0 0 0 host 0\n", "no usable laser scan"),
-        ("cut.log.gz", &[0x1f, 0x8b, 8, 0, 0, 0, 0, 0, 0, 3, 1], "laser"),
+        ("cut.log.gz", &[0x1f, 0x8b, 8, 0, 0, 0, 0, 0, 0, 3, 1], "cut off or damaged"),
         ("short.log", b"FLASER 180 1.0 2.0\n", "FLASER"),
         ("one.log", b"FLASER 3 1 1 1 0 0 0 0 0 0 0.5 host 0.5\n", ""),
     ];

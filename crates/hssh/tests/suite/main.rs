@@ -4,7 +4,9 @@
 mod causal;
 mod common;
 mod graph;
+mod kinds;
 mod log;
+mod outputs;
 mod program;
 mod simulate;
 mod stars;

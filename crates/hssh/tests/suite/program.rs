@@ -1,6 +1,6 @@
 //! The program as a user runs it: what it prints, what it writes, how it exits.
 
-use super::common::{hssh, hssh_reading, root, scratch, session};
+use super::common::{hssh, hssh_reading, root, scratch, session, text};
 
 #[test]
 fn the_main_job() {
@@ -210,5 +210,57 @@ fn the_pictures_in_the_documents_are_those_it_makes() {
             shown,
             "docs/images/{name} is out of date"
         );
+    }
+}
+
+/// What is possible and hardly meant is asked about, by name, wherever the exploration is read.
+#[test]
+fn degrees_are_asked_about() {
+    let file = scratch("radians").join("turns.ron");
+    let travel = |theta: &str| {
+        format!(
+            "(exit: \"0+\", entry: \"0-\", star: \"+\", odometry: (x: 8, y: 0, theta: {theta}, covariance: [0.04, 0.04, 0.001])),"
+        )
+    };
+    let stars = "Exploration(stars: {\"+\": [\"0+\", \"1+\", \"0-\", \"1-\"]}, start: \"+\", travels: [";
+    let write = |theta: &str| {
+        std::fs::write(&file, format!("{stars}{}{}])", travel("0.1"), travel(theta))).unwrap();
+    };
+    let file = file.to_str().unwrap();
+    write("90");
+    let said = |command: &str| {
+        let output = hssh(&[command, file]);
+        text(&output.stdout) + &text(&output.stderr)
+    };
+    for command in ["check", "map", "explain"] {
+        let said = said(command);
+        assert!(
+            said.contains("travel 2: theta is 90, more than a full circle") && said.contains("degrees"),
+            "{said}"
+        );
+    }
+    write("1.57");
+    assert!(!said("check").contains("question") && !said("map").contains("warning"));
+    write("1e308");
+    assert!(said("map").contains("travel 2") || said("map").contains("no robot"), "{}", said("map"));
+    assert_eq!(hssh(&["map", file]).status.code(), Some(2));
+}
+
+/// An option that does nothing, or a number that means nothing, is refused.
+#[test]
+fn useless_options_are_refused() {
+    for (arguments, expected) in [
+        (&["--weights", "0,2,1"][..], "--prior simplicity"),
+        (&["--prior", "flat", "--weights", "0,2,1"], "--prior simplicity"),
+        (&["--prior", "simplicity", "--weights", "1,2"], "three numbers"),
+        (&["--prior", "simplicity", "--weights", "1,-2,0"], "not negative"),
+        (&["--prior", "simplicity", "--weights", "1,nan,0"], "not negative"),
+        (&["--likeness=nan"], "not negative"),
+        (&["--likeness=-1"], "not negative"),
+        (&["--likeness=inf"], "not negative"),
+    ] {
+        let output = hssh(&[&["map", "fixtures/aces.ron"], arguments].concat());
+        assert_eq!(output.status.code(), Some(2), "{arguments:?}");
+        assert!(text(&output.stderr).contains(expected), "{arguments:?}: {}", text(&output.stderr));
     }
 }

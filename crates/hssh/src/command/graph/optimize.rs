@@ -3,8 +3,9 @@
 use std::collections::BTreeSet;
 
 use hssh_metrics::{
-    Edge, GraphFile, Kernel, Method, Options, Pose, PoseGraph, Solution, StopReason, chordal_poses, closures,
-    odometry_poses, relax, screen_closures, solve, solve_from_anywhere, solve_robustly,
+    Edge, GraphFile, Kernel, Method, Options, Pose, PoseGraph, PoseId, Solution, StopReason, chordal_poses,
+    closures, floating_poses, odometry_poses, relax, screen_closures, solve, solve_from_anywhere,
+    solve_robustly,
 };
 
 use crate::arguments::{GraphArguments, KernelOption, MethodOption, StartOption};
@@ -45,14 +46,21 @@ pub(super) fn optimize(options: &GraphArguments, file: &GraphFile) -> Result<Opt
         return Err(Failure::Usage(help.to_owned()));
     }
     let graph = started(options, file)?;
+    refuse_floating(&graph, file)?;
     if let Some(kernel) = options.robust {
-        return robustly(&graph, kernel, options.deviations, &solver);
+        let (kernel, is_suspect) = (robust_kernel(kernel, options.deviations), suspects(&graph, file));
+        return robustly(&graph, |edge| is_suspect(edge).then_some(kernel), &solver);
     }
     if options.graduated {
-        return screened(&graph, options.threshold, &solver);
+        return screened(&graph, suspects(&graph, file), options.threshold, &solver);
     }
     if options.method == MethodOption::Relaxation {
         return relaxed(&graph, options.max_iterations.unwrap_or(MAX_SWEEPS), options.tolerance);
+    }
+    if !file.doubtful.is_empty() {
+        let doubtful: BTreeSet<_> = file.doubtful.iter().map(|&index| ends(&graph.edges()[index])).collect();
+        let is_suspect = |edge: &Edge| doubtful.contains(&ends(edge));
+        return screened(&graph, is_suspect, options.threshold, &solver);
     }
     let solution = match options.start {
         StartOption::Best => solve_from_anywhere(&graph, &solver)?,
@@ -83,7 +91,7 @@ fn method(option: MethodOption) -> Method {
 /// The graph at the poses to start from.
 fn started(options: &GraphArguments, file: &GraphFile) -> Result<PoseGraph, Failure> {
     let mut graph = file.graph.clone();
-    let resists_outliers = options.robust.is_some() || options.graduated;
+    let resists_outliers = options.robust.is_some() || options.graduated || !file.doubtful.is_empty();
     let poses = match options.start {
         StartOption::Best if resists_outliers => odometry_poses(&graph)?,
         StartOption::Best if options.method != MethodOption::Relaxation => return Ok(graph),
@@ -97,7 +105,7 @@ fn started(options: &GraphArguments, file: &GraphFile) -> Result<PoseGraph, Fail
                      and --start odometry need no poses",
                     file.unplaced.len(),
                     graph.poses().len(),
-                    file.labels[first.index()]
+                    file.label(*first).unwrap_or_default()
                 )));
             }
         },
@@ -121,19 +129,24 @@ fn relaxed(graph: &PoseGraph, sweeps: usize, tolerance: f64) -> Result<Optimum, 
     })
 }
 
-fn robustly(
-    graph: &PoseGraph,
-    kernel: KernelOption,
-    deviations: f64,
-    solver: &Options,
-) -> Result<Optimum, Failure> {
-    let kernel = match kernel {
+fn ends(edge: &Edge) -> (PoseId, PoseId) {
+    (edge.from, edge.to)
+}
+
+fn robust_kernel(kernel: KernelOption, deviations: f64) -> Kernel {
+    match kernel {
         KernelOption::Huber => Kernel::Huber(deviations),
         KernelOption::Cauchy => Kernel::Cauchy(deviations),
         KernelOption::Dcs => Kernel::DynamicCovarianceScaling(deviations),
-    };
-    let is_suspect = suspects(graph);
-    let solution = solve_robustly(graph, |edge| is_suspect(edge).then_some(kernel), solver)?;
+    }
+}
+
+fn robustly(
+    graph: &PoseGraph,
+    kernel: impl Fn(&Edge) -> Option<Kernel>,
+    solver: &Options,
+) -> Result<Optimum, Failure> {
+    let solution = solve_robustly(graph, kernel, solver)?;
     Ok(Optimum {
         initial_chi2: graph.chi2(),
         chi2: graph.chi2_at(&solution.poses),
@@ -147,8 +160,13 @@ fn robustly(
     })
 }
 
-fn screened(graph: &PoseGraph, threshold: f64, solver: &Options) -> Result<Optimum, Failure> {
-    let screening = screen_closures(graph, suspects(graph), threshold, solver)?;
+fn screened(
+    graph: &PoseGraph,
+    is_suspect: impl Fn(&Edge) -> bool,
+    threshold: f64,
+    solver: &Options,
+) -> Result<Optimum, Failure> {
+    let screening = screen_closures(graph, is_suspect, threshold, solver)?;
     let Solution { poses, chi2, stop, .. } = screening.solution;
     Ok(Optimum {
         weights: screening.accepted.iter().map(|&accepted| f64::from(u8::from(accepted))).collect(),
@@ -163,11 +181,35 @@ fn screened(graph: &PoseGraph, threshold: f64, solver: &Options) -> Result<Optim
     })
 }
 
-/// The edges that may be wrong: those between poses which dead reckoning does not join directly.
-fn suspects(graph: &PoseGraph) -> impl Fn(&Edge) -> bool + use<> {
+/// The edges that may be wrong: those between poses which dead reckoning does not join directly. Priors are believed.
+fn suspects(graph: &PoseGraph, file: &GraphFile) -> impl Fn(&Edge) -> bool + use<> {
     let tree = graph.edges().iter().zip(closures(graph)).filter(|(_, closes)| !closes);
     let trusted: BTreeSet<_> = tree.map(|(edge, _)| (edge.from, edge.to)).collect();
-    move |edge| !trusted.contains(&(edge.from, edge.to)) && !trusted.contains(&(edge.to, edge.from))
+    let world = file.world;
+    move |edge| {
+        !trusted.contains(&(edge.from, edge.to))
+            && !trusted.contains(&(edge.to, edge.from))
+            && world != Some(edge.from)
+    }
+}
+
+/// Refuses a graph of which something could move without any measurement noticing.
+fn refuse_floating(graph: &PoseGraph, file: &GraphFile) -> Result<(), Failure> {
+    let mut placed = graph.clone();
+    // Where poses are given by edges alone, all are at the origin, and much looks as if it could move.
+    placed.set_poses(odometry_poses(graph)?).expect("there is one pose for each");
+    let floating = floating_poses(&placed);
+    let labels: Vec<String> =
+        floating.iter().filter_map(|&pose| file.label(pose)).map(|label| label.to_string()).collect();
+    if labels.is_empty() {
+        return Ok(());
+    }
+    let shown = labels.iter().take(8).cloned().collect::<Vec<_>>().join(", ");
+    let more = if labels.len() > 8 { format!(" and {} more", labels.len() - 8) } else { String::new() };
+    Err(Failure::Usage(format!(
+        "the graph is not determined: the poses {shown}{more} could move without any measurement noticing, for some \
+         directions have an information of zero\nhelp: measure what is missing, or hold poses with FIX"
+    )))
 }
 
 const CONVERGED: &str = "converged";

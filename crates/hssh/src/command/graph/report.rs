@@ -1,44 +1,52 @@
 //! What is found of a pose graph, in numbers.
 
-use hssh::account::{JudgedEdge, LabeledPose, PoseGraphAccount, SkippedRecord};
+use hssh::account::{JudgedEdge, LabeledPoint, LabeledPose, PoseGraphAccount, SkippedRecord};
+use hssh::answer::counted;
 use hssh_draw::EdgeKind;
-use hssh_metrics::{Edge, GraphFile, PoseId};
+use hssh_metrics::{Edge, GraphFile, PoseId, SkippedRecords};
 
 use super::optimize::Optimum;
 
-/// What was found; `seconds` are those of reading and of solving.
+/// What was found; `fixed` are the poses that the file holds, `held` those that nothing else does, `seconds` those of
+/// reading and of solving.
 pub(super) fn account(
     name: String,
     file: &GraphFile,
-    held: &[PoseId],
+    [fixed, held]: [&[PoseId]; 2],
     kinds: &[EdgeKind],
     optimum: &Optimum,
     seconds: [f64; 2],
 ) -> PoseGraphAccount {
     let graph = &file.graph;
-    let label = |pose: PoseId| file.labels[pose.index()];
+    let label = |pose: PoseId| file.label(pose);
+    let labels = |poses: &[PoseId]| poses.iter().filter_map(|&pose| label(pose)).collect();
     let judged = |(edge, &weight): (&Edge, &f64)| {
         let ends = [edge.from, edge.to].map(|pose| optimum.poses[pose.index()]);
-        JudgedEdge { from: label(edge.from), to: label(edge.to), chi2: edge.chi2(ends[0], ends[1]), weight }
+        let to = label(edge.to).unwrap_or_default();
+        JudgedEdge { from: label(edge.from), to, chi2: edge.chi2(ends[0], ends[1]), weight }
     };
     let edges: Vec<JudgedEdge> = graph.edges().iter().zip(&optimum.weights).map(judged).collect();
     let believed = edges.iter().filter(|edge| edge.weight > 0.0);
-    let worst = believed.clone().max_by(|a, b| a.chi2.total_cmp(&b.chi2)).cloned();
-    let degrees_of_freedom = 3 * (believed.count() as i64 - graph.free_poses() as i64);
-    let pose = |(&pose, found): (&u64, &hssh_metrics::Pose)| LabeledPose {
-        pose,
-        x: found.x,
-        y: found.y,
-        theta: found.theta,
-    };
-    let skipped = file.skipped.iter();
+    let worst = believed.max_by(|a, b| a.chi2.total_cmp(&b.chi2)).cloned();
+    let ranks = graph.edges().iter().zip(&optimum.weights).filter(|&(_, &weight)| weight > 0.0);
+    let measured: usize = ranks.map(|(edge, _)| edge.information.rank()).sum();
+    let degrees_of_freedom = measured as i64 - 3 * graph.free_poses() as i64;
+    let poses =
+        graph.pose_ids().zip(&optimum.poses).filter_map(|(pose, found)| Some((pose, label(pose)?, found)));
+    let (landmarks, poses): (Vec<_>, Vec<_>) = poses.partition(|&(pose, ..)| file.is_landmark(pose));
+    let priors = graph.edges().iter().filter(|edge| file.is_prior(edge)).count();
+    let closes = |(&kind, edge): (&EdgeKind, &Edge)| kind != EdgeKind::Odometry && !file.is_prior(edge);
     PoseGraphAccount {
         format: "hssh-pose-graph".to_owned(),
         version: 1,
         name,
-        edges: edges.len(),
-        closures: kinds.iter().filter(|&&kind| kind != EdgeKind::Odometry).count(),
-        held: held.iter().map(|&pose| label(pose)).collect(),
+        partial: partial(file),
+        edges: edges.len() - priors,
+        closures: kinds.iter().zip(graph.edges()).filter(|&pair| closes(pair)).count(),
+        priors,
+        parts: parts(file),
+        fixed: labels(fixed),
+        held: labels(held),
         degrees_of_freedom,
         file_chi2: file.unplaced.is_empty().then(|| graph.chi2()),
         initial_chi2: optimum.initial_chi2,
@@ -52,7 +60,69 @@ pub(super) fn account(
         seconds_reading: seconds[0],
         seconds_solving: seconds[1],
         doubted: edges.into_iter().filter(|edge| edge.weight < 1.0).collect(),
-        skipped: skipped.map(|line| SkippedRecord { line: line.line, record: line.record.clone() }).collect(),
-        poses: file.labels.iter().zip(&optimum.poses).map(pose).collect(),
+        remarks: remarks(file),
+        skipped: file.skipped.iter().map(skipped).collect(),
+        poses: poses
+            .into_iter()
+            .map(|(_, pose, found)| LabeledPose { pose, x: found.x, y: found.y, theta: found.theta })
+            .collect(),
+        landmarks: landmarks
+            .into_iter()
+            .map(|(_, landmark, found)| LabeledPoint { landmark, x: found.x, y: found.y })
+            .collect(),
     }
+}
+
+fn skipped(records: &SkippedRecords) -> SkippedRecord {
+    SkippedRecord { line: records.line, record: records.record.clone(), count: records.count }
+}
+
+/// What of the file should be in the answer and is not, if there is anything.
+fn partial(file: &GraphFile) -> Option<String> {
+    let lost: Vec<&SkippedRecords> = file.skipped.iter().filter(|skipped| skipped.matters()).collect();
+    let count: usize = lost.iter().map(|skipped| skipped.count).sum();
+    let first = lost.first()?;
+    let rest = if lost.len() > 1 { " and others" } else { "" };
+    let records = if count == 1 { "record of the file is" } else { "records of the file are" };
+    let space =
+        if first.is_spatial() { "; it is of a graph in space, and hssh solves in the plane" } else { "" };
+    Some(format!(
+        "{count} {records} not in this answer: `{}` on line {}{rest}{space}",
+        first.record, first.line
+    ))
+}
+
+/// Into how many parts the graph falls that no measurement joins; landmarks that nobody saw are none.
+fn parts(file: &GraphFile) -> usize {
+    let is_part = |component: &&Vec<PoseId>| {
+        component.iter().any(|&pose| file.world != Some(pose) && !file.is_landmark(pose))
+    };
+    file.graph.components().iter().filter(is_part).count()
+}
+
+/// What is worth knowing about how the file was read.
+fn remarks(file: &GraphFile) -> Vec<String> {
+    let mut remarks = Vec::new();
+    match file.empty_edges {
+        0 => {}
+        1 => remarks.push(
+            "one measurement has an information of zero in all directions and counts as absent".to_owned(),
+        ),
+        many => remarks.push(format!(
+            "{many} measurements have an information of zero in all directions and count as absent"
+        )),
+    }
+    if !file.doubtful.is_empty() {
+        let count = counted(file.doubtful.len(), "closure");
+        remarks.push(format!(
+            "the file holds {count} for doubtful: whether to believe them is decided as by --graduated, which takes the \
+             place of switches and null hypotheses"
+        ));
+    }
+    if let Some((line, turn)) = file.large_turn {
+        remarks.push(format!(
+            "line {line} turns by {turn} rad, more than a full circle: are these degrees? hssh takes radians"
+        ));
+    }
+    remarks
 }

@@ -5,13 +5,15 @@ use std::path::{Path, PathBuf};
 use hssh::answer::{Answer, AnsweredMap, MapPicture, Objective};
 use hssh::pipeline::{Input, Mapped};
 use hssh_draw::{Bearings, TreeOptions, draw_tree, tree_to_dot};
-use hssh_local::{write_map, write_png};
+use hssh_local::{encode_png, write_map};
 use hssh_metrics::GraphFile;
 
 use crate::arguments::MapArguments;
 use crate::command::stages::{building_file, map_file};
 use crate::failure::Failure;
-use crate::output::{say_written, write_file};
+use crate::output::{
+    Written, check_folder, check_outputs, refuse_input, say_written, write_bytes, write_file,
+};
 
 /// Whether any picture or file is asked for.
 pub(super) fn is_asked(arguments: &MapArguments) -> bool {
@@ -19,10 +21,24 @@ pub(super) fn is_asked(arguments: &MapArguments) -> bool {
     [svg, dot, tree, g2o, grid, debug_dir].iter().any(|file| file.is_some())
 }
 
+/// Refuses outputs that cannot be written, before anything is searched.
+pub(super) fn check(arguments: &MapArguments) -> Result<(), Failure> {
+    let MapArguments { svg, dot, tree, g2o, grid, certificate, .. } = arguments;
+    let grid_image = grid.as_deref().filter(|grid| is_yaml(grid)).map(|grid| grid.with_extension("pgm"));
+    let outputs = [svg, dot, tree, g2o, grid, certificate, &grid_image].map(Option::as_ref);
+    check_outputs(&[&arguments.file], outputs)?;
+    check_folder(arguments.debug_dir.as_ref())
+}
+
 /// Draws the tree, and the maps that are as good as the first.
-pub(super) fn draw(arguments: &MapArguments, input: &Input, mapped: &Mapped) -> Result<(), Failure> {
+pub(super) fn draw(
+    arguments: &MapArguments,
+    input: &Input,
+    mapped: &Mapped,
+    written: &mut Written,
+) -> Result<(), Failure> {
     if let Some(file) = &arguments.tree {
-        draw_search(file, input, mapped)?;
+        written.note(draw_search(file, input, mapped));
     }
     let best: Vec<&AnsweredMap> = mapped.answer.maps.iter().filter(|map| map.tied).collect();
     for (index, map) in best.iter().enumerate() {
@@ -37,20 +53,23 @@ pub(super) fn draw(arguments: &MapArguments, input: &Input, mapped: &Mapped) -> 
             files.map(|file| numbered(file.as_deref(), index));
         let title = title(&arguments.file, index, best.len(), kind(&mapped.answer));
         let picture = MapPicture::new(map, Some(title))?;
+        for file in [svg.as_ref(), dot.as_ref(), g2o.as_ref(), grid.as_ref()].into_iter().flatten() {
+            refuse_input(&arguments.file, file)?;
+        }
         for file in [svg, map_stage].into_iter().flatten() {
-            write_file(&file, &picture.to_svg())?;
+            written.note(write_file(&file, &picture.to_svg()));
         }
         if let Some(file) = dot {
-            write_file(&file, &picture.to_dot())?;
+            written.note(write_file(&file, &picture.to_dot()));
         }
         let rank = index + 1;
         let graph = mapped.pose_graph(rank);
         for file in [grid, building_stage].into_iter().flatten().filter(|_| graph.is_some()) {
-            write_building(&file, input, mapped, rank)?;
+            written.note(write_building(&file, input, mapped, rank));
         }
         if let Some(file) = g2o {
             let graph = graph.ok_or(Failure::NoOdometry)?;
-            write_file(&file, &GraphFile::from(graph.clone()).to_g2o())?;
+            written.note(write_file(&file, &GraphFile::from(graph.clone()).to_g2o()));
         }
     }
     Ok(())
@@ -69,14 +88,17 @@ fn draw_search(file: &Path, input: &Input, mapped: &Mapped) -> Result<(), Failur
 /// Writes the grid of the building, for ROS `map_server` if the file ends so.
 fn write_building(file: &Path, input: &Input, mapped: &Mapped, rank: usize) -> Result<(), Failure> {
     let grid = mapped.building(input, rank)?;
-    let is_yaml = file.extension().is_some_and(|ending| ending == "yaml" || ending == "yml");
-    if is_yaml {
-        write_map(&grid, file)?
+    if is_yaml(file) {
+        write_map(&grid, file)?;
+        say_written(file);
+        Ok(())
     } else {
-        write_png(&grid, file)?
+        write_bytes(file, &encode_png(&grid))
     }
-    say_written(file);
-    Ok(())
+}
+
+fn is_yaml(file: &Path) -> bool {
+    file.extension().is_some_and(|ending| ending == "yaml" || ending == "yml")
 }
 
 /// What the best maps are, in the singular.

@@ -9,7 +9,7 @@ use crate::arguments::MapArguments;
 use crate::command::stages::draw_survey;
 use crate::failure::{Failure, Status};
 use crate::input::{read_input, warn};
-use crate::output::{print, write_file};
+use crate::output::{Written, print, write_file};
 use crate::progress::watched;
 
 pub(crate) fn run(arguments: &MapArguments) -> Result<Status, Failure> {
@@ -18,6 +18,7 @@ pub(crate) fn run(arguments: &MapArguments) -> Result<Status, Failure> {
         let help = "counting keeps no maps to draw: choose another --search for pictures";
         return Err(Failure::Usage(help.to_owned()));
     }
+    draw::check(arguments)?;
     let input = read_input(&arguments.file, &options)?;
     match (input.as_surveyed(), &arguments.debug_dir) {
         (None, _) => refuse_what_needs_a_log(arguments)?,
@@ -29,10 +30,13 @@ pub(crate) fn run(arguments: &MapArguments) -> Result<Status, Failure> {
         true => mapped.answer.to_json(),
         false => mapped.answer.to_text(Listing { levels: arguments.levels, flags: true }),
     })?;
+    let mut written = Written::default();
     if let Some(file) = &arguments.certificate {
-        write_file(file, &mapped.certificate(&input).ok_or(Failure::NothingProved)?)?;
+        let certificate = mapped.certificate(&input).ok_or(Failure::NothingProved);
+        written.note(certificate.and_then(|certificate| write_file(file, &certificate)));
     }
-    draw::draw(arguments, &input, &mapped)?;
+    draw::draw(arguments, &input, &mapped, &mut written)?;
+    written.done()?;
     Ok(Status::of(&mapped.answer))
 }
 

@@ -1,0 +1,85 @@
+//! Jumps of the odometry that no robot makes: its base was restarted, or somebody carried it.
+
+use hssh_metrics::Pose;
+
+use super::error::LogWarning;
+use super::raw::{Moment, RawLog};
+
+/// No step between two readings is a jump that is shorter than this many metres…
+const LEAST: f64 = 2.0;
+/// …or than so many usual steps…
+const TIMES_USUAL: f64 = 20.0;
+/// …or that a robot could have made in the time at this speed, in metres per second…
+const FASTEST: f64 = 4.0;
+/// …or, for turns, at this rate, in radians per second.
+const QUICKEST: f64 = 4.0;
+/// No turn between two readings is a jump that is smaller, in radians.
+const LEAST_TURN: f64 = 1.2;
+/// What is known of a step across a jump is as little as after so many metres of travel.
+const DETOUR: f64 = 8.0;
+
+impl RawLog {
+    /// Takes jumps out of the trajectory: what comes behind one is moved to where the step before would have led, and a
+    /// detour there and back says that this is a guess, so that scans decide.
+    pub(super) fn bridge_jumps(&mut self, warnings: &mut Vec<LogWarning>) {
+        let usual = self.usual_step();
+        let raw = std::mem::take(&mut self.trajectory);
+        let times = self.times(raw.len());
+        let mut position = Vec::with_capacity(raw.len());
+        let (mut moved, mut last_step) = (Pose::IDENTITY, Pose::IDENTITY);
+        for (index, &Moment { pose, line }) in raw.iter().enumerate() {
+            if let Some(before) = index.checked_sub(1) {
+                let step = raw[before].pose.between(pose);
+                let seconds =
+                    times[index].zip(times[before]).map(|([_, later], [earlier, _])| later - earlier);
+                if is_jump(step, usual, seconds) {
+                    let (metres, turn) = (step.translation().norm(), step.theta);
+                    warnings.push(LogWarning::Jump { line, metres, turn });
+                    let here = self.trajectory.last().map_or(pose, |last| last.pose);
+                    moved = here.compose(last_step).compose(pose.inverse());
+                    let away = here.compose(Pose::new(DETOUR / 2.0, 0.0, 0.0));
+                    self.trajectory.extend([away, here].map(|pose| Moment { pose, line }));
+                } else {
+                    last_step = step;
+                }
+            }
+            position.push(self.trajectory.len());
+            self.trajectory.push(Moment { pose: moved.compose(pose), line });
+        }
+        for scan in &mut self.scans {
+            scan.moment = position[scan.moment];
+        }
+    }
+
+    /// The middle one of all steps that are any.
+    fn usual_step(&self) -> f64 {
+        let step = |pair: &[Moment]| pair[0].pose.between(pair[1].pose).translation().norm();
+        let mut steps: Vec<f64> = self.trajectory.windows(2).map(step).filter(|&step| step > 1e-3).collect();
+        steps.sort_by(f64::total_cmp);
+        steps.get(steps.len() / 2).copied().unwrap_or(0.0)
+    }
+
+    /// For each reading, when the scan before it and the one behind it were taken, itself counted as both.
+    fn times(&self, readings: usize) -> Vec<Option<[f64; 2]>> {
+        let mut times = vec![None; readings];
+        for pair in self.scans.windows(2) {
+            if let (Some(from), Some(to)) = (pair[0].time, pair[1].time) {
+                times[pair[0].moment + 1..pair[1].moment].fill(Some([from, to]));
+            }
+        }
+        for scan in &self.scans {
+            times[scan.moment] = scan.time.map(|time| [time, time]);
+        }
+        times
+    }
+}
+
+fn is_jump(step: Pose, usual: f64, seconds: Option<f64>) -> bool {
+    // Clocks that stand still or go back tell nothing.
+    let seconds = seconds.filter(|&seconds| seconds > 0.0);
+    let way = seconds.map_or(0.0, |seconds| FASTEST * seconds);
+    let (far, turned) = (step.translation().norm(), step.theta.abs());
+    let is_far = far > LEAST.max(TIMES_USUAL * usual).max(way);
+    let is_quick = seconds.is_some_and(|seconds| turned > LEAST_TURN + QUICKEST * seconds);
+    is_far || is_quick
+}

@@ -1,0 +1,54 @@
+//! Where the laser sits on the robot.
+
+use hssh_metrics::Pose;
+
+use super::error::LogWarning;
+use super::raw::RawLog;
+
+/// The parameters that say it: metres ahead, metres to the left, radians.
+const PARAMETERS: [&str; 3] =
+    ["robot_frontlaser_offset", "robot_frontlaser_side_offset", "robot_frontlaser_angular_offset"];
+/// No laser sits farther from the axis of its robot, in metres.
+const FARTHEST: f64 = 3.0;
+/// Two poses that differ by less are equal: logs round to millimetres.
+const ROUNDING: f64 = 0.003;
+/// So much is no offset worth a word, in metres and radians.
+const NEGLIGIBLE: f64 = 0.1;
+
+impl RawLog {
+    /// Makes the trajectory that of the laser, from which all ranges are measured.
+    pub(super) fn move_to_laser(&mut self, warnings: &mut Vec<LogWarning>) {
+        let (pose, source) = match (self.told_by_poses(), self.told_by_parameters()) {
+            (Some(pose), _) => (pose, "the difference of the two poses in each FLASER message"),
+            (None, Some(pose)) => (pose, "the log's parameter robot_frontlaser_offset"),
+            (None, None) => return,
+        };
+        for moment in &mut self.trajectory {
+            moment.pose = moment.pose.compose(pose);
+        }
+        if pose.translation().norm() > NEGLIGIBLE || pose.theta.abs() > NEGLIGIBLE {
+            warnings.push(LogWarning::LaserPose { pose, source });
+        }
+    }
+
+    fn told_by_parameters(&self) -> Option<Pose> {
+        let [x, y, theta] = PARAMETERS.map(|name| self.parameter(name).unwrap_or(0.0));
+        let pose = Pose::new(x, y, theta);
+        let is_offset = pose != Pose::IDENTITY && pose.translation().norm() <= FARTHEST;
+        is_offset.then_some(pose)
+    }
+
+    /// In a log that nobody corrected, the first pose of a scan is the laser's and the second the robot's, and one is
+    /// always the same seen from the other.
+    fn told_by_poses(&self) -> Option<Pose> {
+        let seen = |scan: &super::raw::RawScan| self.trajectory[scan.moment].pose.between(scan.corrected);
+        let first = self.scans.first().map(seen)?;
+        let is_same = |pose: Pose| {
+            let off = first.between(pose);
+            off.translation().norm() <= ROUNDING && off.theta.abs() <= ROUNDING
+        };
+        let is_offset = first.translation().norm() > ROUNDING || first.theta.abs() > ROUNDING;
+        let is_told = is_offset && first.translation().norm() <= FARTHEST && self.scans.len() > 1;
+        (is_told && self.scans.iter().all(|scan| is_same(seen(scan)))).then_some(first)
+    }
+}

@@ -1,0 +1,111 @@
+//! A log as its messages tell it, before anything is made of it that concerns the log as a whole.
+
+use std::collections::BTreeMap;
+
+use hssh_metrics::Pose;
+
+use super::error::{LogError, LogWarning, MessageProblem};
+use super::message::{LaserMessage, Message};
+
+/// All messages of a log.
+#[derive(Default)]
+pub(super) struct RawLog {
+    /// The scans in order.
+    pub(super) scans: Vec<RawScan>,
+    /// All raw odometry in order, that of the scans included.
+    pub(super) trajectory: Vec<Moment>,
+    /// The last value of each parameter that is a finite number.
+    pub(super) parameters: BTreeMap<String, f64>,
+    /// How many messages of kinds that are not read, by kind.
+    pub(super) skipped: BTreeMap<String, u64>,
+}
+
+/// A scan as its message tells it.
+pub(super) struct RawScan {
+    pub(super) ranges: Vec<f64>,
+    pub(super) odd_beams: usize,
+    pub(super) odd_word: Option<String>,
+    /// The first of the two poses in the message.
+    pub(super) corrected: Pose,
+    /// Its own position in the trajectory.
+    pub(super) moment: usize,
+    pub(super) line: u64,
+    pub(super) time: Option<f64>,
+}
+
+/// A pose of raw odometry, and the line that has it.
+#[derive(Clone, Copy)]
+pub(super) struct Moment {
+    pub(super) pose: Pose,
+    pub(super) line: u64,
+}
+
+impl RawLog {
+    pub(super) fn add(&mut self, message: Message, line: u64) {
+        match message {
+            Message::Laser(laser) => {
+                let LaserMessage { ranges, odd_beams, odd_word, corrected, odometry, time } = laser;
+                let moment = self.trajectory.len();
+                self.trajectory.push(Moment { pose: odometry, line });
+                self.scans.push(RawScan { ranges, odd_beams, odd_word, corrected, moment, line, time });
+            }
+            Message::Odometry(pose) => self.trajectory.push(Moment { pose, line }),
+            Message::Parameter { name, value } => {
+                if let Some(number) = value.parse().ok().filter(|number: &f64| number.is_finite()) {
+                    self.parameters.insert(name.to_ascii_lowercase(), number);
+                }
+            }
+            Message::Other(kind) => *self.skipped.entry(kind).or_default() += 1,
+        }
+    }
+
+    /// The value of a parameter.
+    pub(super) fn parameter(&self, name: &str) -> Option<f64> {
+        self.parameters.get(name).copied()
+    }
+
+    /// Leaves out scans with another number of beams than most.
+    pub(super) fn keep_usual_scans(&mut self, warnings: &mut Vec<LogWarning>) {
+        let mut counts: BTreeMap<usize, usize> = BTreeMap::new();
+        for scan in &self.scans {
+            *counts.entry(scan.ranges.len()).or_default() += 1;
+        }
+        let usual = counts.iter().max_by_key(|&(beams, scans)| (scans, beams));
+        let expected = usual.map_or(0, |(&beams, _)| beams);
+        self.scans.retain(|scan| {
+            let found = scan.ranges.len();
+            if found != expected {
+                let problem = MessageProblem::OtherBeamCount { found, expected };
+                warnings.push(LogWarning::Message { line: scan.line, kind: "FLASER".to_owned(), problem });
+            }
+            found == expected
+        });
+    }
+
+    /// Says once how many beams are no ranges.
+    pub(super) fn tell_odd_beams(&self, warnings: &mut Vec<LogWarning>) {
+        let odd = self.scans.iter().filter(|scan| scan.odd_beams > 0);
+        let Some(first) = odd.clone().next() else { return };
+        warnings.push(LogWarning::OddBeams {
+            line: first.line,
+            word: first.odd_word.clone().unwrap_or_default(),
+            beams: odd.clone().map(|scan| scan.odd_beams as u64).sum(),
+            scans: odd.count() as u64,
+        });
+    }
+
+    /// Why there is no scan to use.
+    pub(super) fn why_useless(self, lines: u64, warnings: Vec<LogWarning>) -> LogError {
+        if lines == 0 {
+            return LogError::Empty;
+        }
+        let mut kinds: Vec<String> = Vec::new();
+        if !self.trajectory.is_empty() {
+            kinds.push(format!("{} ODOM", self.trajectory.len()));
+        }
+        let other = self.skipped.iter().filter(|(kind, _)| !kind.is_empty() && *kind != "#").take(5);
+        kinds.extend(other.map(|(kind, count)| format!("{count} `{}`", kind.escape_debug())));
+        let messages = if kinds.is_empty() { "no message".to_owned() } else { kinds.join(", ") };
+        LogError::NoScans { lines, messages, first_warning: warnings.into_iter().next() }
+    }
+}

@@ -1,0 +1,105 @@
+//! Reading what maps are to explain: explorations and laser logs.
+
+mod source;
+
+use std::path::Path;
+use std::time::Duration;
+
+use hssh::answer::AnswerWarning;
+use hssh::kind::FileKind;
+use hssh::pipeline::{Input, MappingOptions, SurveyedLog};
+use hssh_causal::Exploration;
+use hssh_local::{LaserLog, OccupancyGrid, SurveyError, SurveyStage, read_map_with_remarks};
+use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
+
+use crate::failure::Failure;
+use crate::output::say;
+
+pub(crate) use source::Source;
+
+/// An exploration, or a laser log with what is found in it; `-` is standard input.
+pub(crate) fn read_input(file: &Path, options: &MappingOptions) -> Result<Input, Failure> {
+    let name = file.display().to_string();
+    let source = Source::open(file)?;
+    match source.kind() {
+        FileKind::LaserLog(_) => {
+            let surveyed = surveyed(file, source, options)?;
+            Input::surveyed(name, surveyed).map_err(|error| failed(file, error))
+        }
+        FileKind::Exploration | FileKind::Text | FileKind::Empty => {
+            Ok(Input::exploration(name, exploration(file, source)?))
+        }
+        _ => Err(source.unfit("an exploration or a laser log")),
+    }
+}
+
+/// The exploration in a file, or on standard input if the path is `-`.
+pub(crate) fn read_exploration(file: &Path) -> Result<Exploration, Failure> {
+    let source = Source::open(file)?;
+    match source.kind() {
+        FileKind::Exploration | FileKind::Text | FileKind::Empty => exploration(file, source),
+        _ => Err(source.unfit("an exploration")),
+    }
+}
+
+fn exploration(file: &Path, source: Source) -> Result<Exploration, Failure> {
+    let bytes = source.into_bytes()?;
+    Exploration::from_ron_bytes(&bytes).map_err(|error| Failure::parse(file, &bytes, &error))
+}
+
+/// The laser log in a file, and the places along it.
+pub(crate) fn read_surveyed(file: &Path, options: &MappingOptions) -> Result<SurveyedLog, Failure> {
+    let source = Source::open(file)?;
+    match source.kind() {
+        FileKind::LaserLog(_) | FileKind::Text | FileKind::Empty => surveyed(file, source, options),
+        _ => Err(source.unfit("a laser log")),
+    }
+}
+
+/// A CARMEN log and the places along it, with a progress bar on standard error; warnings go there, too.
+pub(crate) fn surveyed(
+    file: &Path,
+    source: Source,
+    options: &MappingOptions,
+) -> Result<SurveyedLog, Failure> {
+    let unreadable = |error| Failure::ReadLog { file: file.to_owned(), error: Box::new(error) };
+    let log = LaserLog::read(source.into_content()).map_err(unreadable)?;
+    let scans = log.scans.len() as u64;
+    let bar = ProgressBar::with_draw_target(Some(2 * scans), ProgressDrawTarget::stderr_with_hz(10));
+    if let Ok(style) = ProgressStyle::with_template("{spinner} {msg} {bar:30} {percent}%  {elapsed}") {
+        bar.set_style(style);
+    }
+    bar.enable_steady_tick(Duration::from_millis(100));
+    let surveyed = SurveyedLog::new(log, options, |stage, done| {
+        let (message, before) = match stage {
+            SurveyStage::Tracking => ("matching scans", 0),
+            SurveyStage::Looking => ("looking for places", scans),
+        };
+        bar.set_message(message);
+        bar.set_position(before + done as u64);
+    });
+    bar.finish_and_clear();
+    let surveyed = surveyed.map_err(|error| failed(file, error))?;
+    warn(file, &surveyed.warnings());
+    Ok(surveyed)
+}
+
+/// A grid map by its YAML file; what is read otherwise than it says goes to standard error.
+pub(crate) fn read_grid(yaml: &Path) -> Result<OccupancyGrid, Failure> {
+    let (grid, remarks) = read_map_with_remarks(yaml)?;
+    for remark in remarks {
+        say(&format!("warning: {remark}"));
+    }
+    Ok(grid)
+}
+
+pub(crate) fn failed(file: &Path, error: SurveyError) -> Failure {
+    Failure::Survey { file: file.to_owned(), error: Box::new(error) }
+}
+
+/// Says warnings on standard error.
+pub(crate) fn warn(file: &Path, warnings: &[AnswerWarning]) {
+    for warning in warnings {
+        say(&format!("warning: {}: {warning}", file.display()));
+    }
+}

@@ -1,0 +1,96 @@
+//! Printing, and writing files.
+
+mod place;
+mod replace;
+
+use std::io::Write;
+use std::path::Path;
+
+use serde::Serialize;
+
+use crate::failure::Failure;
+
+pub(crate) use place::{check_folder, check_outputs, refuse_input};
+
+/// Prints text to standard output; nothing in it commands the terminal.
+pub(crate) fn print(text: &str) -> Result<(), Failure> {
+    let mut out = std::io::stdout().lock();
+    out.write_all(harmless(text).as_bytes())?;
+    Ok(out.flush()?)
+}
+
+/// Says something on standard error; nothing in it commands the terminal, and it does not matter whether anybody reads it.
+pub(crate) fn say(text: &str) {
+    let _ = writeln!(std::io::stderr(), "{}", harmless(text));
+}
+
+/// Text with what is no character to be shown written as its code: names of files and of stars may hold anything.
+fn harmless(text: &str) -> String {
+    let is_shown = |c: char| !c.is_control() || c == '\n' || c == '\t';
+    if text.chars().all(is_shown) {
+        return text.to_owned();
+    }
+    let shown = |c: char| if is_shown(c) { c.to_string() } else { c.escape_debug().to_string() };
+    text.chars().map(shown).collect()
+}
+
+/// One JSON object.
+pub(crate) fn to_json(value: &impl Serialize) -> Result<String, Failure> {
+    let text = serde_json::to_string_pretty(value).map_err(std::io::Error::from)?;
+    Ok(text + "\n")
+}
+
+/// Prints one JSON object.
+pub(crate) fn print_json(value: &impl Serialize) -> Result<(), Failure> {
+    print(&to_json(value)?)
+}
+
+/// Writes a file and says so on standard error.
+pub(crate) fn write_file(file: &Path, text: &str) -> Result<(), Failure> {
+    write_bytes(file, text.as_bytes())
+}
+
+/// Writes a file as a whole, or not at all: what was there stays until what comes is complete.
+pub(crate) fn write_bytes(file: &Path, bytes: &[u8]) -> Result<(), Failure> {
+    replace::replace(file, bytes).map_err(|error| Failure::Write { file: file.to_owned(), error })?;
+    say_written(file);
+    Ok(())
+}
+
+/// Says on standard error that a file was written.
+pub(crate) fn say_written(file: &Path) {
+    say(&format!("wrote {}", file.display()));
+}
+
+/// Several files of one result: what fails keeps none of the others from being written.
+#[derive(Default)]
+pub(crate) struct Written {
+    failed: Option<Failure>,
+}
+
+impl Written {
+    /// Takes note of how writing went; the first failure is reported in the end, further ones at once.
+    pub(crate) fn note(&mut self, written: Result<(), Failure>) {
+        if let Err(failure) = written {
+            match self.failed {
+                None => self.failed = Some(failure),
+                Some(_) => failure.print(),
+            }
+        }
+    }
+
+    /// Whether all went well.
+    pub(crate) fn done(self) -> Result<(), Failure> {
+        self.failed.map_or(Ok(()), Err)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::harmless;
+
+    #[test]
+    fn nothing_commands_the_terminal() {
+        assert_eq!(harmless("a\tb\nü → \u{1b}[31mred\r\u{7}"), "a\tb\nü → \\u{1b}[31mred\\r\\u{7}");
+    }
+}
