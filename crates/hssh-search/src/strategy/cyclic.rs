@@ -37,6 +37,41 @@ struct Turn<A: Appraise> {
     solved: u64,
 }
 
+impl<A: Appraise> Default for Turn<A> {
+    fn default() -> Self {
+        Turn { expanded: None, beyond: Vec::new(), unsolvable: Vec::new(), factors: Vec::new(), solved: 0 }
+    }
+}
+
+impl<A: Appraise> Turn<A> {
+    /// Settles a hypothesis; it is returned if something may still come of it.
+    fn settled(
+        &mut self,
+        appraiser: &A,
+        mut leaf: Leaf<A>,
+        reach: Option<A::Key>,
+        cursor: &mut Cursor,
+        tree: &Tree,
+        context: Context<'_>,
+    ) -> Option<Leaf<A>> {
+        if matters(appraiser, &leaf, reach) && !appraiser.is_settled(&leaf) {
+            self.solved += 1;
+            match appraiser.settle(&mut leaf, cursor, tree, context) {
+                Ok(factor) => self.factors.extend(factor.map(|factor| (appraiser.bound(&leaf), factor))),
+                Err(problem) => {
+                    self.unsolvable.push((leaf, problem));
+                    return None;
+                }
+            }
+        }
+        if matters(appraiser, &leaf, reach) {
+            return Some(leaf);
+        }
+        self.beyond.push(leaf);
+        None
+    }
+}
+
 impl<A: Appraise> Engine<A> {
     /// Sweeps until the best maps are proved, and so little probability is left as was asked for.
     pub(crate) fn cyclic(&mut self, context: Context<'_>) -> StopReason {
@@ -65,7 +100,13 @@ impl<A: Appraise> Engine<A> {
     }
 
     /// The best hypothesis of each of these levels is expanded; whether there was any.
+    ///
+    /// Once there is a map, whatever is within reach has to be expanded before the map is proved, in whatever order: then levels that
+    /// have work take over the shares of those that have none.
     fn take_turns(&mut self, levels: Vec<usize>, context: Context<'_>) -> bool {
+        if self.reach.is_some() && levels.len() > 1 {
+            return self.take_shares(&levels, context);
+        }
         while self.cursors.len() < levels.len() {
             self.cursors.push(Cursor::new(context.experience));
         }
@@ -83,6 +124,36 @@ impl<A: Appraise> Engine<A> {
         let mut any = false;
         for turn in turns {
             any |= self.end_turn(turn, context);
+        }
+        any
+    }
+
+    /// The best hypotheses of these levels, as many as there are fronts, are expanded or set aside; whether there were any.
+    fn take_shares(&mut self, levels: &[usize], context: Context<'_>) -> bool {
+        let mut leaves = Vec::with_capacity(FRONTS);
+        let mut is_left = true;
+        while is_left && leaves.len() < FRONTS {
+            is_left = false;
+            for &level in levels {
+                if leaves.len() < FRONTS
+                    && let Some(leaf) = self.frontier.levels[level].pop()
+                {
+                    leaves.push(leaf);
+                    is_left = true;
+                }
+            }
+        }
+        while self.cursors.len() < leaves.len() {
+            self.cursors.push(Cursor::new(context.experience));
+        }
+        let any = !leaves.is_empty();
+        let (appraiser, tree, reach) = (&self.appraiser, &self.tree, self.reach);
+        let jobs: Vec<_> = leaves.into_iter().zip(&mut self.cursors).collect();
+        let turns = context
+            .crew
+            .each(jobs, |(leaf, cursor)| take_share(appraiser, leaf, reach, cursor, tree, context));
+        for turn in turns {
+            self.end_turn(turn, context);
         }
         any
     }
@@ -161,6 +232,23 @@ fn take_turn<A: Appraise>(
     turn
 }
 
+/// Expands a hypothesis, if something may come of it.
+fn take_share<A: Appraise>(
+    appraiser: &A,
+    leaf: Leaf<A>,
+    reach: Option<A::Key>,
+    cursor: &mut Cursor,
+    tree: &Tree,
+    context: Context<'_>,
+) -> Turn<A> {
+    let mut turn = Turn::default();
+    turn.expanded = turn.settled(appraiser, leaf, reach, cursor, tree, context).map(|leaf| {
+        let grown = appraiser.grow(&leaf, cursor, tree, context);
+        (leaf, grown)
+    });
+    turn
+}
+
 /// Takes the best hypothesis of a level that something may come of. It is settled.
 fn choose<A: Appraise>(
     appraiser: &A,
@@ -170,22 +258,10 @@ fn choose<A: Appraise>(
     tree: &Tree,
     context: Context<'_>,
 ) -> (Turn<A>, Option<Leaf<A>>) {
-    let mut turn =
-        Turn { expanded: None, beyond: Vec::new(), unsolvable: Vec::new(), factors: Vec::new(), solved: 0 };
-    while let Some(mut leaf) = level.pop() {
-        if matters(appraiser, &leaf, reach) && !appraiser.is_settled(&leaf) {
-            turn.solved += 1;
-            match appraiser.settle(&mut leaf, cursor, tree, context) {
-                Ok(factor) => turn.factors.extend(factor.map(|factor| (appraiser.bound(&leaf), factor))),
-                Err(problem) => {
-                    turn.unsolvable.push((leaf, problem));
-                    continue;
-                }
-            }
-        }
-        if !matters(appraiser, &leaf, reach) {
-            turn.beyond.push(leaf);
-        } else if level.peek().is_some_and(|other| *other < leaf) {
+    let mut turn = Turn::default();
+    while let Some(leaf) = level.pop() {
+        let Some(leaf) = turn.settled(appraiser, leaf, reach, cursor, tree, context) else { continue };
+        if level.peek().is_some_and(|other| *other < leaf) {
             level.push(leaf);
         } else {
             return (turn, Some(leaf));
