@@ -23,6 +23,8 @@ pub(crate) struct Sweep {
     pub(crate) slack: f64,
     /// Expansions when the best map became the best.
     pub(crate) best_since: u64,
+    /// Expansions when the best maps were proved, and the search went on for the rest's probability.
+    pub(crate) proved_after: Option<u64>,
 }
 
 /// A map that explains everything.
@@ -127,7 +129,7 @@ impl<A: Appraise> Engine<A> {
             // What explained everything goes first.
             self.sweep = Sweep { from: before, ..Sweep::default() };
         }
-        self.sweep.slack = 0.0;
+        (self.sweep.slack, self.sweep.proved_after) = (0.0, None);
         self.reach = None;
         let found = self.found.drain(..).map(|found| found.leaf);
         let mut leaves: Vec<Leaf<A>> = found.chain(self.rejected.drain(..)).collect();

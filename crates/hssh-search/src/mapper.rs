@@ -431,16 +431,22 @@ fn proof<A: Appraise>(engine: &Engine<A>) -> Proof {
     let best = found.first().map(|found| found.leaf.key);
     let open_bound = engine.open_bound();
     let beats_rest = |best| open_bound.is_none_or(|bound| bound > appraiser.reach(best, 0.0));
-    // A promise that was too high does no harm where even the truth is too high.
-    let within_reach = factors.iter().filter(|(bound, _)| reach.is_none() || bound <= reach);
-    let linear_factor = within_reach.map(|&(_, factor)| factor).fold(1.0, f64::min);
+    // A promise that was too high does no harm where even the truth is too high: to the proof beyond the best map, whatever was
+    // looked at for the rest's probability, and to that beyond its reach.
+    let least_within = |reach: &Option<A::Key>| {
+        let within = factors.iter().filter(|(bound, _)| reach.is_none() || bound <= reach);
+        within.map(|&(_, factor)| factor).fold(1.0, f64::min)
+    };
+    let last = found.get(engine.proving.best.max(1) - 1);
+    let linear_factor = least_within(&last.map(|last| appraiser.reach(last.leaf.key, 0.0)));
+    let is_rest_sound = open_bound.is_none() || least_within(reach) >= LINEAR_TRUST;
     let is_sound = open_bound.is_none() || linear_factor >= LINEAR_TRUST;
     Proof {
         best: best.map(|best| appraiser.score(best)),
         open_bound: open_bound.map(|bound| appraiser.score(bound)),
         proved: is_sound && !unsolvable && best.map_or(open_bound.is_none(), beats_rest),
         // Nobody knows what the hypotheses weigh that have no layout.
-        rest: engine.rest().map(|rest| if unsolvable { 1.0 } else { rest }),
+        rest: engine.rest().map(|rest| if unsolvable || !is_rest_sound { 1.0 } else { rest }),
         linear_factor,
         unsolvable,
     }

@@ -4,6 +4,7 @@
 mod carmen;
 mod local_map;
 mod matching;
+mod mutations;
 mod place;
 mod simulator;
 mod survey;

@@ -24,6 +24,9 @@ const FRONTS: usize = 8;
 /// By how many nats the reach of a search grows as long as too much probability is left.
 const WIDENING: f64 = 1.0;
 
+/// For the probability of the rest a search expands so many hypotheses more than it did for the proof.
+const REST_WORK: u64 = 2_000;
+
 /// What came of one level's turn.
 struct Turn<A: Appraise> {
     /// The hypothesis that was expanded.
@@ -91,6 +94,9 @@ impl<A: Appraise> Engine<A> {
                 }
                 if let Some(reason) = self.stop(context).or_else(|| self.is_out_of_patience()) {
                     return reason;
+                }
+                if self.is_rest_too_dear() {
+                    return self.proved();
                 }
             }
             if idle && from == 0 && !self.widen() {
@@ -201,11 +207,24 @@ impl<A: Appraise> Engine<A> {
         if self.rest().is_none_or(|rest| rest <= self.proving.rest) {
             return false;
         }
+        self.sweep.proved_after.get_or_insert(self.tally.expanded);
+        if self.is_rest_too_dear() {
+            return false;
+        }
         self.sweep.slack += self.appraiser.distance(reach, least).max(0.0) + WIDENING;
         self.set_reach();
         let (appraiser, reach) = (&self.appraiser, self.reach);
         self.frontier.unpark(|leaf| matters(appraiser, leaf, reach));
         true
+    }
+
+    /// Whether what comes after the proof took as much work as the proof, and some more: the rest's probability is then told
+    /// as it is.
+    fn is_rest_too_dear(&self) -> bool {
+        let expanded = self.tally.expanded;
+        self.sweep
+            .proved_after
+            .is_some_and(|proved| expanded >= proved.saturating_mul(2).saturating_add(REST_WORK))
     }
 
     fn is_out_of_patience(&self) -> Option<StopReason> {

@@ -296,7 +296,7 @@ fn certificate(report: &Report, measured: bool) -> CertificateSummary {
         trusted.push(Trusted {
             assumption: Assumption::LinearEstimates,
             sentence: format!(
-                "χ² rises by at least {LINEAR_TRUST} of what the linear estimate says; where it was computed, it rose by at least \
+                "χ² rises by at least {LINEAR_TRUST} of what the linear estimate says; where the proof needs it and it was computed, it rose by at least \
                  {:.2} of it",
                 proof.linear_factor
             ),
