@@ -13,6 +13,9 @@ pub(crate) struct ExploreArguments {
     /// Where to write the exploration; without it, it is printed.
     #[arg(short, long, value_name = "FILE")]
     pub(crate) output: Option<PathBuf>,
+    /// Refuse a log of which scans cannot be used or that breaks off, instead of warning.
+    #[arg(long)]
+    pub(crate) strict: bool,
     /// Print what was found as JSON: visits with their scans and stars, and travels with odometry.
     #[arg(long)]
     pub(crate) json: bool,

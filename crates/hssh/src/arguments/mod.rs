@@ -56,6 +56,9 @@ pub(crate) struct MapArguments {
     /// List all maps.
     #[arg(long, conflicts_with = "top")]
     pub(crate) all: bool,
+    /// Refuse a log of which scans cannot be used or that breaks off, instead of saying so in the first line.
+    #[arg(long)]
+    pub(crate) strict: bool,
     /// Print also what the search made of each travel, and its cost.
     #[arg(long)]
     pub(crate) levels: bool,

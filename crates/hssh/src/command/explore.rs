@@ -6,7 +6,7 @@ use hssh::pipeline::MappingOptions;
 use super::stages::draw_survey;
 use crate::arguments::ExploreArguments;
 use crate::failure::{Failure, Status};
-use crate::input::{failed, read_surveyed};
+use crate::input::{failed, read_surveyed, refuse_partial};
 use crate::output::{Written, check_folder, check_outputs, print, print_json, write_file};
 
 pub(crate) fn run(arguments: &ExploreArguments) -> Result<Status, Failure> {
@@ -14,6 +14,9 @@ pub(crate) fn run(arguments: &ExploreArguments) -> Result<Status, Failure> {
     check_outputs(&[&arguments.log], [arguments.output.as_ref()])?;
     check_folder(arguments.debug_dir.as_ref())?;
     let surveyed = read_surveyed(&arguments.log, &options)?;
+    if arguments.strict {
+        refuse_partial(&arguments.log, Some(&surveyed))?;
+    }
     let exploration = surveyed.survey.exploration().map_err(|error| failed(&arguments.log, error))?;
     let account = SurveyAccount::new(&arguments.log.display().to_string(), &surveyed);
     match &arguments.output {

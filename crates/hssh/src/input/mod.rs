@@ -84,6 +84,12 @@ pub(crate) fn surveyed(
     Ok(surveyed)
 }
 
+/// Refuses a log of which a part is missing from what is made of it.
+pub(crate) fn refuse_partial(file: &Path, surveyed: Option<&SurveyedLog>) -> Result<(), Failure> {
+    let lost = surveyed.and_then(SurveyedLog::first_loss);
+    lost.map_or(Ok(()), |lost| Err(Failure::Partial { file: file.to_owned(), lost }))
+}
+
 /// A grid map by its YAML file; what is read otherwise than it says goes to standard error.
 pub(crate) fn read_grid(yaml: &Path) -> Result<OccupancyGrid, Failure> {
     let (grid, remarks) = read_map_with_remarks(yaml)?;

@@ -119,6 +119,24 @@ impl SurveyedLog {
         used as u64 + self.unusable().filter(|&unusable| unusable < line).count() as u64
     }
 
+    /// What of the log is missing from what is made of it, in words, if it is more than a scan here and there: a tenth of all
+    /// scans, or its end.
+    #[must_use]
+    pub fn partial(&self) -> Option<String> {
+        let (all, lost) = (self.scans(), self.unusable().count() as u64);
+        let broken = self.log.warnings.iter().find(|warning| matches!(warning, LogWarning::BreaksOff { .. }));
+        if 10 * lost >= all {
+            return Some(format!("{lost} of {all} scans of the log could not be used"));
+        }
+        broken.map(LogWarning::to_string)
+    }
+
+    /// The first thing in the log that is missing from what is made of it, in words.
+    #[must_use]
+    pub fn first_loss(&self) -> Option<String> {
+        self.log.warnings.iter().find(|warning| warning.is_loss()).map(LogWarning::to_string)
+    }
+
     /// The lines with scans that cannot be used.
     fn unusable(&self) -> impl Iterator<Item = u64> + '_ {
         self.log.warnings.iter().filter_map(|warning| match warning {

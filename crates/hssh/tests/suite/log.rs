@@ -84,3 +84,29 @@ fn grids_come_from_logs_only() {
         assert!(String::from_utf8_lossy(&output.stderr).contains("need a laser log"));
     }
 }
+
+/// What is missing of a log is told in the first line, or refused.
+#[test]
+fn a_log_that_is_used_in_part_says_so_first() {
+    let whole = scratch("partial").join("ring.log").to_string_lossy().into_owned();
+    assert_eq!(hssh(&["simulate", "--floor", "ring", "-o", &whole]).status.code(), Some(0));
+    let text = std::fs::read_to_string(&whole).unwrap();
+    let mut scans = 0;
+    let damaged = |line: &str| {
+        scans += u32::from(line.starts_with("FLASER"));
+        let is_cut = line.starts_with("FLASER") && scans % 5 == 0;
+        if is_cut { format!("{}\n", &line[..line.len() / 2]) } else { format!("{line}\n") }
+    };
+    let file = scratch("partial").join("damaged.log").to_string_lossy().into_owned();
+    std::fs::write(&file, text.lines().map(damaged).collect::<String>()).unwrap();
+    let said = String::from_utf8(hssh(&["map", &file, "--planar"]).stdout).unwrap();
+    let first = said.lines().next().unwrap();
+    assert!(
+        first.starts_with("PARTIAL: ") && first.ends_with("scans of the log could not be used"),
+        "{said}"
+    );
+    for command in ["map", "explore"] {
+        assert_eq!(hssh(&[command, &file, "--strict"]).status.code(), Some(2), "{command}");
+        assert_eq!(hssh(&[command, &whole, "--strict"]).status.code(), Some(0), "{command}");
+    }
+}

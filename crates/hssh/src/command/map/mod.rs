@@ -3,12 +3,12 @@
 mod draw;
 
 use hssh::answer::Listing;
-use hssh::pipeline::{Input, Mapped, MappingOptions, SearchMethod, map};
+use hssh::pipeline::{Input, Mapped, MappingOptions, SearchMethod, SurveyedLog, map};
 
 use crate::arguments::MapArguments;
 use crate::command::stages::draw_survey;
 use crate::failure::{Failure, Status};
-use crate::input::{read_input, warn};
+use crate::input::{read_input, refuse_partial, warn};
 use crate::output::{Written, print, write_file};
 use crate::progress::watched;
 
@@ -20,6 +20,9 @@ pub(crate) fn run(arguments: &MapArguments) -> Result<Status, Failure> {
     }
     draw::check(arguments)?;
     let input = read_input(&arguments.file, &options)?;
+    if arguments.strict {
+        refuse_partial(&arguments.file, input.as_surveyed())?;
+    }
     match (input.as_surveyed(), &arguments.debug_dir) {
         (None, _) => refuse_what_needs_a_log(arguments)?,
         (Some(surveyed), Some(folder)) => draw_survey(&surveyed.log, &surveyed.survey, folder)?,
@@ -28,7 +31,11 @@ pub(crate) fn run(arguments: &MapArguments) -> Result<Status, Failure> {
     let mapped = searched(&input, &options)?;
     print(&match arguments.json {
         true => mapped.answer.to_json(),
-        false => mapped.answer.to_text(Listing { levels: arguments.levels, flags: true }),
+        false => {
+            let partial = input.as_surveyed().and_then(SurveyedLog::partial);
+            let first = partial.map(|partial| format!("PARTIAL: {partial}\n")).unwrap_or_default();
+            first + &mapped.answer.to_text(Listing { levels: arguments.levels, flags: true })
+        }
     })?;
     let mut written = Written::default();
     if let Some(file) = &arguments.certificate {
