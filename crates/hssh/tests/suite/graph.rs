@@ -192,3 +192,19 @@ fn what_floats_is_named() {
     let said = common::text(&refused.stderr);
     assert!(said.contains("the poses 2 could move"), "{said}");
 }
+
+/// Dead reckoning that has drifted by more than a radian refuses no right closure for good.
+#[test]
+fn a_kernel_gets_away_from_drifted_dead_reckoning() {
+    let file = scratch("graph").join("drifted.g2o");
+    let (lap, turn, drift) = (100, std::f64::consts::TAU / 100.0, 0.004);
+    let edge = |from: usize, to: usize, x: f64, theta: f64| {
+        format!("EDGE_SE2 {from} {to} {x} 0 {theta} 400 0 0 400 0 10000\n")
+    };
+    let mut text: String = (0..4 * lap).map(|pose| edge(pose, pose + 1, 1.0, turn + drift)).collect();
+    text.extend((0..3 * lap).step_by(5).map(|pose| edge(pose, pose + lap, 0.0, 0.0)));
+    std::fs::write(&file, text).unwrap();
+    let found = answer(&[file.to_str().unwrap(), "--robust", "dcs"]);
+    assert_eq!(found["doubted"].as_array().unwrap().len(), 0, "{}", found["chi2"]);
+    assert!(found["chi2"].as_f64().unwrap() < 200.0, "{}", found["chi2"]);
+}
