@@ -93,7 +93,7 @@ fn in_plain_words(problem: &str) -> String {
     }
     let plain = first
         .replace("invalid f64", "this is no number")
-        .replace("invalid floating point value", "this is no number");
+        .replace("invalid floating point", "this is no number");
     plain.split(", set ").next().unwrap_or_default().to_owned()
 }
 

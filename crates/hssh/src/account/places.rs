@@ -156,6 +156,12 @@ impl fmt::Display for PlacesAccount {
                 writeln!(f, "{}: {visits}, in the frame of the robot's track", self.name)?;
             }
         }
+        if self.places.is_empty() {
+            writeln!(
+                f,
+                "no place was found: nowhere are there other ways out than on and back; --shallowest makes shorter ways count"
+            )?;
+        }
         for (number, place) in self.places.iter().enumerate() {
             f.write_str(&place.to_text(number))?;
         }
