@@ -14,6 +14,10 @@ pub(crate) fn run() -> Result<(), Box<dyn Error>> {
     step("format", || Ok(cmd!(shell, "cargo fmt --all -- --check").run()?))?;
     step("tidy", tidy::run)?;
     step("lints", || Ok(cmd!(shell, "cargo clippy --workspace --all-targets -- -D warnings").run()?))?;
+    step("lints without faer", || {
+        let lean = ["--package", "hssh", "--package", "hssh-metrics", "--no-default-features"];
+        Ok(cmd!(shell, "cargo clippy {lean...} --all-targets -- -D warnings").run()?)
+    })?;
     step("tests", || Ok(cmd!(shell, "cargo test --workspace").run()?))?;
     step("documentation", || {
         Ok(cmd!(shell, "cargo doc --workspace --no-deps").env("RUSTDOCFLAGS", "-Dwarnings").run()?)

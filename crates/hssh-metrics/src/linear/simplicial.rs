@@ -71,7 +71,14 @@ impl Symbolic {
         Symbolic { row_starts, columns, column_starts, rows }
     }
 
+    /// How many blocks the factor has below its diagonal.
+    #[cfg(all(test, feature = "faer"))]
+    pub(crate) fn blocks(&self) -> usize {
+        self.rows.len()
+    }
+
     /// How many blocks the column of a block of L has, on the average over all blocks: how much work each is.
+    #[cfg(feature = "faer")]
     pub(crate) fn work_per_block(&self) -> f64 {
         let counts = self.column_starts.windows(2).map(|ends| ends[1] - ends[0]);
         counts.map(|count| (count * count) as f64).sum::<f64>() / self.rows.len().max(1) as f64
