@@ -1,6 +1,7 @@
 //! When each block is eliminated: an approximate minimum degree order on blocks, cheaper than one on scalars and no
 //! worse.
 
+#[cfg(feature = "faer")]
 use sprs::CsMat;
 
 /// `position[block]`: when a block is eliminated, given the upper triangle of a pattern with its whole diagonal.
