@@ -63,16 +63,12 @@ fn the_places_of_a_floor_plan_are_those_of_its_world() {
 
 #[test]
 fn it_reaches_the_places_it_meant_to_and_centers_in_them() {
-    let (mut missed, mut meant) = (Vec::new(), 0);
     for floor in floors() {
         let found = driven(&plan(&floor), 10, 1);
         assert_eq!(found.ending, Ending::Done, "{}: {}", floor.name, found.ending);
         let mut sum = 0.0;
         for stop in &found.stops {
-            // A gateway read askew may lead the robot to another place; its guide plans anew from there.
-            assert!(stop.place.is_some(), "{}: {stop:?}", floor.name);
-            meant += usize::from(stop.meant.is_some());
-            missed.extend(stop.meant.filter(|_| stop.meant != stop.place).map(|_| (floor.name, *stop)));
+            assert!(stop.place.is_some() && (stop.meant.is_none() || stop.meant == stop.place), "{stop:?}");
             // The center is where the midlines of the corridors meet.
             let (_, off) = nearest(&floor, [stop.pose.x, stop.pose.y]);
             assert!(off < floor.width / 2.0, "{}: {off:.2} m off, not in the crossing: {stop:?}", floor.name);
@@ -81,7 +77,6 @@ fn it_reaches_the_places_it_meant_to_and_centers_in_them() {
         let mean = sum / found.stops.len() as f64;
         assert!(mean < 0.2, "{}: {mean:.2} m off center on the mean", floor.name);
     }
-    assert!(20 * missed.len() <= meant, "of {meant} places meant it missed {missed:?}");
 }
 
 /// No cell whose middle is in the robot's disc is anything but free, wherever the robot was.

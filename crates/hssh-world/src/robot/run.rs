@@ -133,7 +133,7 @@ impl<'a> Run<'a> {
     }
 
     /// Turns around once, so that the whole neighborhood was seen, and centers in it. If it is none when seen so
-    /// well, goes on.
+    /// well, goes on where the corridor led: climbing toward the illusion may have turned the robot back.
     fn arrive(&mut self) -> Result<(), Ending> {
         for _ in 0..MOST_ILLUSIONS {
             self.turn_around()?;
@@ -142,6 +142,7 @@ impl<'a> Run<'a> {
             if self.outlook.vicinity().is_some() {
                 return self.perform(&vec![ControlLaw::HillClimb]);
             }
+            self.face(self.course)?;
             let width = self.corridor_width();
             self.perform(&approach(width))?;
         }
