@@ -9,7 +9,7 @@ use hssh::pipeline::{PipelineError, SearchFailure};
 use hssh_causal::ParseError;
 use hssh_draw::TreeError;
 
-use crate::output::say;
+use crate::terminal::say;
 
 /// How a command ended that did what was asked.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]

@@ -9,6 +9,7 @@ mod failure;
 mod input;
 mod output;
 mod progress;
+mod terminal;
 
 use std::process::ExitCode;
 

@@ -1,8 +1,10 @@
 //! What can be wrong with the text of a pose graph.
 
-use super::lines::LONGEST_LINE;
 use crate::graph::GraphError;
 use crate::uncertainty::UncertaintyError;
+
+/// No line is longer, in bytes.
+pub(super) const LONGEST_LINE: usize = 1 << 20;
 
 /// What is wrong with a text that should be a pose graph, and where.
 #[derive(Debug, thiserror::Error)]

@@ -2,10 +2,7 @@
 
 use std::io::BufRead;
 
-use super::error::ReadProblem;
-
-/// No line is longer, in bytes.
-pub(super) const LONGEST_LINE: usize = 1 << 20;
+use super::error::{LONGEST_LINE, ReadProblem};
 
 /// What some editors write before the first character of a text in UTF-8.
 const BYTE_ORDER_MARK: &[u8] = b"\xEF\xBB\xBF";

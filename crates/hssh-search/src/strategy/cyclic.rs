@@ -3,7 +3,8 @@
 //! Comparing only hypotheses that explain equally much is fair whatever a travel costs, so that a complete map is found
 //! soon; and none is dropped, so that the search can come back. A long exploration is swept by several fronts at
 //! once, a fixed number of levels apart: what one front does no other sees before the step is over, so that threads can
-//! share the step, and the result does not depend on how many they are.
+//! share the step, and the result does not depend on how many they are. Once there is a map, the proof asks for all that is
+//! within reach, and fronts with nothing to do help the others.
 
 use hssh_metrics::SolveError;
 
@@ -127,27 +128,15 @@ impl<A: Appraise> Engine<A> {
         let turns = context
             .crew
             .each(jobs, |(level, cursor)| take_turn(appraiser, level, reach, cursor, tree, context));
-        let mut any = false;
-        for turn in turns {
-            any |= self.end_turn(turn, context);
-        }
-        any
+        turns.into_iter().fold(false, |any, turn| self.end_turn(turn, context) | any)
     }
 
     /// The best hypotheses of these levels, as many as there are fronts, are expanded or set aside; whether there were any.
     fn take_shares(&mut self, levels: &[usize], context: Context<'_>) -> bool {
         let mut leaves = Vec::with_capacity(FRONTS);
-        let mut is_left = true;
-        while is_left && leaves.len() < FRONTS {
-            is_left = false;
-            for &level in levels {
-                if leaves.len() < FRONTS
-                    && let Some(leaf) = self.frontier.levels[level].pop()
-                {
-                    leaves.push(leaf);
-                    is_left = true;
-                }
-            }
+        for _ in 0..FRONTS {
+            let queues = &mut self.frontier.levels;
+            leaves.extend(levels.iter().filter_map(|&level| queues[level].pop()).take(FRONTS - leaves.len()));
         }
         while self.cursors.len() < leaves.len() {
             self.cursors.push(Cursor::new(context.experience));

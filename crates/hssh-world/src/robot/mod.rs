@@ -25,12 +25,14 @@ mod laser;
 mod odometer;
 mod options;
 mod outlook;
+mod record;
 mod run;
 mod strategy;
 
 pub use body::touches;
-pub use drive::{Drive, DriveError, Ending, Moment, Stop, drive};
+pub use drive::{Drive, DriveError, drive};
 pub use laser::Laser;
 pub use odometer::Odometer;
 pub use options::RobotOptions;
+pub use record::{Ending, Moment, Stop};
 pub use strategy::Strategy;

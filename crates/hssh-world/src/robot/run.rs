@@ -12,9 +12,9 @@ use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
 
 use super::body::touches;
-use super::drive::{Ending, Moment, Stop};
 use super::options::RobotOptions;
 use super::outlook::Outlook;
+use super::record::{Ending, Moment, Stop};
 use super::strategy::{Guide, Plan, Strategy};
 
 /// The robot is at a place of the map if its center is this near, in metres, beyond the clearance there.

@@ -13,7 +13,7 @@ use hssh_local::{LaserLog, OccupancyGrid, SurveyError, SurveyStage, read_map_wit
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 
 use crate::failure::Failure;
-use crate::output::say;
+use crate::terminal::say;
 
 pub(crate) use source::Source;
 

@@ -9,6 +9,7 @@ use std::path::Path;
 use serde::Serialize;
 
 use crate::failure::Failure;
+use crate::terminal::{harmless, say};
 
 pub(crate) use place::{check_folder, check_outputs, refuse_input};
 
@@ -17,21 +18,6 @@ pub(crate) fn print(text: &str) -> Result<(), Failure> {
     let mut out = std::io::stdout().lock();
     out.write_all(harmless(text).as_bytes())?;
     Ok(out.flush()?)
-}
-
-/// Says something on standard error; nothing in it commands the terminal, and it does not matter whether anybody reads it.
-pub(crate) fn say(text: &str) {
-    let _ = writeln!(std::io::stderr(), "{}", harmless(text));
-}
-
-/// Text with what is no character to be shown written as its code: names of files and of stars may hold anything.
-fn harmless(text: &str) -> String {
-    let is_shown = |c: char| !c.is_control() || c == '\n' || c == '\t';
-    if text.chars().all(is_shown) {
-        return text.to_owned();
-    }
-    let shown = |c: char| if is_shown(c) { c.to_string() } else { c.escape_debug().to_string() };
-    text.chars().map(shown).collect()
 }
 
 /// One JSON object.
@@ -82,15 +68,5 @@ impl Written {
     /// Whether all went well.
     pub(crate) fn done(self) -> Result<(), Failure> {
         self.failed.map_or(Ok(()), Err)
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::harmless;
-
-    #[test]
-    fn nothing_commands_the_terminal() {
-        assert_eq!(harmless("a\tb\nü → \u{1b}[31mred\r\u{7}"), "a\tb\nü → \\u{1b}[31mred\\r\\u{7}");
     }
 }
