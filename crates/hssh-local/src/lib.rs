@@ -1,6 +1,7 @@
 //! Small-scale space: laser logs, occupancy grids, gateways and stars; from a log to an exploration.
 
 mod carmen;
+mod closing;
 mod distance;
 mod global_map;
 mod grid;
@@ -15,6 +16,7 @@ mod survey;
 pub use carmen::{
     LaserLog, LaserMessage, LogError, LogReader, LogWarning, LoggedScan, Message, MessageProblem,
 };
+pub use closing::{ClosedTrack, Closure, ClosingError, ClosingOptions, close_loops};
 pub use distance::DistanceField;
 pub use global_map::{global_map, global_poses, mean_wall_distance, visit_frames};
 pub use grid::{Cell, CellLine, GridError, Lattice, LatticeError, Occupancy, OccupancyGrid};

@@ -17,7 +17,7 @@ const FACING: f64 = 0.75;
 
 /// The pose that fits both the surfaces and the odometry best, with its covariance: of (x, y, θ) in the
 /// frame of the cloud. `start` is where to begin, `predicted` what odometry believes.
-pub(super) fn align(
+pub(crate) fn align(
     cloud: &Cloud,
     surfaces: &[SurfacePoint],
     start: Pose,

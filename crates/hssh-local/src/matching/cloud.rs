@@ -16,14 +16,14 @@ const BUCKET: f64 = 0.5;
 
 /// A hit and the direction that the surface there faces.
 #[derive(Clone, Copy, PartialEq, Debug)]
-pub(super) struct SurfacePoint {
-    pub(super) position: Vector2<f64>,
+pub(crate) struct SurfacePoint {
+    pub(crate) position: Vector2<f64>,
     /// Of unit length; `None` where too few hits are near to tell.
-    pub(super) normal: Option<Vector2<f64>>,
+    pub(crate) normal: Option<Vector2<f64>>,
 }
 
 /// The surfaces of a scan in the robot's frame, thinned to about `spacing` metres.
-pub(super) fn surfaces(scan: &Scan, reach: f64, spacing: f64) -> Vec<SurfacePoint> {
+pub(crate) fn surfaces(scan: &Scan, reach: f64, spacing: f64) -> Vec<SurfacePoint> {
     let hits: Vec<(usize, Vector2<f64>)> = scan.hits(reach).collect();
     let mut points: Vec<SurfacePoint> = Vec::new();
     for (index, &(beam, position)) in hits.iter().enumerate() {
@@ -61,7 +61,7 @@ fn normal(points: &[Vector2<f64>]) -> Option<Vector2<f64>> {
 
 /// Surface points in one frame, in buckets.
 #[derive(Clone, Default, Debug)]
-pub(super) struct Cloud {
+pub(crate) struct Cloud {
     points: Vec<SurfacePoint>,
     /// For each bucket, which points are in it.
     buckets: FxHashMap<(i32, i32), Vec<u32>>,
@@ -70,7 +70,7 @@ pub(super) struct Cloud {
 impl Cloud {
     /// Adds the surfaces seen from a pose of this frame, except where there are points within `spacing`
     /// metres already.
-    pub(super) fn insert(&mut self, pose: Pose, surfaces: &[SurfacePoint], spacing: f64) {
+    pub(crate) fn insert(&mut self, pose: Pose, surfaces: &[SurfacePoint], spacing: f64) {
         let rotation = pose.rotation();
         for surface in surfaces {
             let position = pose.translation() + rotation * surface.position;
@@ -84,12 +84,12 @@ impl Cloud {
     }
 
     /// All points, in the order in which they were added.
-    pub(super) fn points(&self) -> &[SurfacePoint] {
+    pub(crate) fn points(&self) -> &[SurfacePoint] {
         &self.points
     }
 
     /// The nearest point with a normal within `reach` metres, which is at most a bucket's side.
-    pub(super) fn nearest(&self, position: Vector2<f64>, reach: f64) -> Option<&SurfacePoint> {
+    pub(crate) fn nearest(&self, position: Vector2<f64>, reach: f64) -> Option<&SurfacePoint> {
         let (column, row) = bucket(position);
         let mut best = None;
         let mut least = reach * reach;

@@ -8,6 +8,8 @@ mod motion;
 mod options;
 mod track;
 
+pub(crate) use align::align;
+pub(crate) use cloud::{Cloud, SurfacePoint, surfaces};
 pub use motion::MotionNoise;
 pub use options::MatchOptions;
 pub use track::{Track, TrackedScan, Tracker, track};

@@ -1,0 +1,300 @@
+//! The loop over the submaps in the order of the log: look for each among the earlier ones near to where it is
+//! believed to be, accept chains of matches, and solve the pose graph anew where they move it.
+
+use hssh_metrics::{Edge, GraphError, Kernel, Options, Pose, PoseGraph, PoseId, SolveError, solve, solve_robustly};
+
+use super::chain::{agree, told};
+use super::keyframe::{Keyframe, keyframes};
+use super::matching::{Match, find};
+use super::options::ClosingOptions;
+use super::search::Window;
+use super::submap::{Submap, middles};
+use crate::carmen::LaserLog;
+use crate::grid::LatticeError;
+use crate::matching::Track;
+
+/// So many submaps back a match may have its chain.
+const CHAIN_MEMORY: usize = 4;
+/// Of one submap at most so many others are looked into.
+const MOST_CANDIDATES: usize = 8;
+/// A closure costs a way so long when it is asked how well two poses are known to one another: metres.
+const CLOSURE_LENGTH: f64 = 1.0;
+/// Moved farther than this, in metres, the graph is solved anew.
+const MOVED: f64 = 0.1;
+/// A closure that fits worse, in standard deviations, begins to count less.
+const KERNEL: f64 = 3.0;
+
+/// Two scans that show one place.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub struct Closure {
+    /// The earlier scan…
+    pub earlier: usize,
+    /// …and the later one.
+    pub later: usize,
+    /// The later pose in the frame of the earlier one, as the laser shows it.
+    pub relative: Pose,
+    /// Of the walls of each that the other has seen, the part that is where the other has them.
+    pub agreement: f64,
+    /// By which factor it counts in the end: near 0 if the rest contradicts it.
+    pub weight: f64,
+}
+
+/// A track with its loops closed.
+#[derive(Clone, PartialEq, Debug)]
+pub struct ClosedTrack {
+    /// The robot at each scan, in the frame of the first.
+    pub poses: Vec<Pose>,
+    /// What holds it together beside the tracked motion.
+    pub closures: Vec<Closure>,
+}
+
+/// Why loops cannot be closed.
+#[derive(Clone, PartialEq, Debug, thiserror::Error)]
+pub enum ClosingError {
+    /// The options describe no submap.
+    #[error("no submap can be made: {0}")]
+    Submap(#[from] LatticeError),
+    /// A motion that is no edge.
+    #[error("the track is no pose graph: {0}")]
+    Graph(#[from] GraphError),
+    /// No least squares.
+    #[error("the pose graph of the scans cannot be solved: {0}")]
+    Solve(#[from] SolveError),
+}
+
+/// Closes the loops of a track.
+///
+/// # Errors
+/// If the options describe no submap, or the pose graph cannot be solved.
+pub fn close_loops(
+    log: &LaserLog,
+    track: &Track,
+    options: &ClosingOptions,
+    mut progress: impl FnMut(usize),
+) -> Result<ClosedTrack, ClosingError> {
+    let keyframes = keyframes(log, track, options);
+    let mut closing = Closing::new(log, track, keyframes, options)?;
+    for query in 0..closing.submaps.len() {
+        closing.close(query)?;
+        progress(closing.keyframes[closing.submaps[query].middle].scan);
+    }
+    closing.finish(track)
+}
+
+struct Closing<'a> {
+    options: &'a ClosingOptions,
+    keyframes: Vec<Keyframe>,
+    submaps: Vec<Submap>,
+    graph: PoseGraph,
+    /// How many edges are the track's.
+    tracked: usize,
+    /// By query.
+    tentative: Vec<Vec<Match>>,
+    accepted: Vec<Match>,
+}
+
+impl<'a> Closing<'a> {
+    fn new(
+        log: &LaserLog,
+        track: &Track,
+        keyframes: Vec<Keyframe>,
+        options: &'a ClosingOptions,
+    ) -> Result<Self, ClosingError> {
+        let submaps = middles(&keyframes, options)
+            .into_iter()
+            .map(|middle| Submap::new(log, &keyframes, middle, options))
+            .collect::<Result<Vec<_>, _>>()?;
+        let mut graph = PoseGraph::default();
+        for keyframe in &keyframes {
+            graph.add_pose(keyframe.tracked);
+        }
+        for (index, pair) in keyframes.windows(2).enumerate() {
+            if let Ok(Some(motion)) = track.motion(pair[0].scan, pair[1].scan) {
+                let (from, to) = (PoseId(index as u32), PoseId(index as u32 + 1));
+                graph.add_edge(Edge::observed(from, to, motion.mean, &motion.covariance))?;
+            }
+        }
+        graph.anchor(PoseId(0))?;
+        let tracked = graph.edges().len();
+        let tentative = vec![Vec::new(); submaps.len()];
+        Ok(Closing { options, keyframes, submaps, graph, tracked, tentative, accepted: Vec::new() })
+    }
+
+    /// Where the middle of a submap is believed to be.
+    fn pose(&self, submap: usize) -> Pose {
+        self.graph.poses()[self.submaps[submap].middle]
+    }
+
+    /// Looks for one submap among those before.
+    fn close(&mut self, query: usize) -> Result<(), ClosingError> {
+        let here = self.pose(query);
+        let ways = self.ways(query);
+        let mut candidates: Vec<(f64, usize, Window)> = Vec::new();
+        for reference in 0..query {
+            if self.submaps[query].travelled - self.submaps[reference].travelled < self.options.least_travel {
+                continue;
+            }
+            let window = self.window(here, reference, ways[reference]);
+            let off = window.center.translation().norm();
+            if off < window.across + self.options.stretch / 2.0 {
+                candidates.push((off, reference, window));
+            }
+        }
+        candidates.sort_by(|a, b| a.0.total_cmp(&b.0));
+        let mut tried: Vec<usize> = Vec::new();
+        let mut found: Vec<Match> = Vec::new();
+        for (_, reference, window) in candidates {
+            let is_like = |&other: &usize| {
+                let travel = self.submaps[other].travelled - self.submaps[reference].travelled;
+                travel.abs() < 1.5 * self.options.stretch
+            };
+            if tried.iter().any(is_like) {
+                continue;
+            }
+            tried.push(reference);
+            let matched = find(&self.submaps, &self.keyframes, (query, reference), &window, self.options);
+            if std::env::var_os("CLOSING").is_some() {
+                eprintln!("{query} {reference} window {:.1} {:.2}: {matched:?}", window.across, window.around);
+            }
+            found.extend(matched.filter(|found| {
+                found.is_clear
+                    && found.agreement >= self.options.least_agreement
+                    && found.overlap >= self.options.least_overlap
+            }));
+            if tried.len() >= MOST_CANDIDATES {
+                break;
+            }
+        }
+        self.tentative[query] = self.unambiguous(&found);
+        self.accept(query)
+    }
+
+    /// Of the matches of one submap those that no other one, elsewhere and nearly as good, makes doubtful.
+    fn unambiguous(&self, found: &[Match]) -> Vec<Match> {
+        let at = |found: &Match| told(found, |submap| self.pose(submap)).translation();
+        let is_doubtful = |one: &&Match| {
+            !found.iter().any(|other| {
+                (at(one) - at(other)).norm() > 1.0 && other.score > self.options.ambiguity * one.score
+            })
+        };
+        found.iter().filter(is_doubtful).copied().collect()
+    }
+
+    /// Accepts the chains that end at a submap.
+    fn accept(&mut self, query: usize) -> Result<(), ClosingError> {
+        let pose = |submap: usize| self.pose(submap);
+        let mut added: Vec<Match> = Vec::new();
+        for found in &self.tentative[query] {
+            let mut chain = vec![*found];
+            for before in query.saturating_sub(CHAIN_MEMORY)..query {
+                let travel = self.submaps[query].travelled - self.submaps[before].travelled;
+                let same = self.tentative[before].iter().filter(|other| agree(other, found, travel, pose));
+                chain.extend(same.max_by(|a, b| a.score.total_cmp(&b.score)));
+            }
+            if chain.len() >= self.options.least_chain {
+                added.extend(chain);
+            }
+        }
+        let is_new = |one: &Match, all: &[Match]| {
+            !all.iter().any(|other| (other.query, other.reference) == (one.query, one.reference))
+        };
+        let mut farthest: f64 = 0.0;
+        for one in added {
+            if !is_new(&one, &self.accepted) {
+                continue;
+            }
+            let (from, to) = (self.submaps[one.reference].middle, self.submaps[one.query].middle);
+            let edge = Edge::observed(PoseId(from as u32), PoseId(to as u32), one.relative.mean, &one.relative.covariance);
+            let off = edge.error(self.graph.poses()[from], self.graph.poses()[to]);
+            farthest = farthest.max(off.xy().norm()).max(10.0 * off.z.abs());
+            self.graph.add_edge(edge)?;
+            self.accepted.push(one);
+        }
+        if farthest > MOVED {
+            let solution = solve(&self.graph, &Options::default())?;
+            self.graph.set_poses(solution.poses)?;
+        }
+        Ok(())
+    }
+
+    /// The poses that a submap may have in the frame of an earlier one.
+    fn window(&self, here: Pose, reference: usize, way: f64) -> Window {
+        let options = self.options;
+        Window {
+            center: self.pose(reference).between(here),
+            across: (options.window.0 + options.window.1 * way).min(options.largest_window.0),
+            around: (options.heading_window.0 + options.heading_window.1 * way).min(options.largest_window.1),
+        }
+    }
+
+    /// How long the way is, by track and closures, from a submap to each earlier one: what the uncertainty of
+    /// their relative pose grows with.
+    fn ways(&self, from: usize) -> Vec<f64> {
+        let mut ways = vec![f64::INFINITY; from + 1];
+        let mut neighbors: Vec<Vec<(usize, f64)>> = vec![Vec::new(); from + 1];
+        for later in 1..=from {
+            let length = self.submaps[later].travelled - self.submaps[later - 1].travelled;
+            neighbors[later].push((later - 1, length));
+            neighbors[later - 1].push((later, length));
+        }
+        for closure in &self.accepted {
+            neighbors[closure.query].push((closure.reference, CLOSURE_LENGTH));
+            neighbors[closure.reference].push((closure.query, CLOSURE_LENGTH));
+        }
+        let mut open = std::collections::BinaryHeap::new();
+        ways[from] = 0.0;
+        open.push((std::cmp::Reverse(0_u64), from));
+        while let Some((std::cmp::Reverse(millimetres), submap)) = open.pop() {
+            if millimetres as f64 / 1e3 > ways[submap] + 1e-3 {
+                continue;
+            }
+            for &(next, length) in &neighbors[submap] {
+                let way = ways[submap] + length;
+                if way < ways[next] {
+                    ways[next] = way;
+                    open.push((std::cmp::Reverse((way * 1e3) as u64), next));
+                }
+            }
+        }
+        ways
+    }
+
+    /// The robust minimum, and the corrections between keyframes.
+    fn finish(self, track: &Track) -> Result<ClosedTrack, ClosingError> {
+        let tracked: Vec<(PoseId, PoseId)> =
+            self.graph.edges()[..self.tracked].iter().map(|edge| (edge.from, edge.to)).collect();
+        let is_closure = |edge: &Edge| tracked.binary_search(&(edge.from, edge.to)).is_err();
+        let kernel = |edge: &Edge| is_closure(edge).then_some(Kernel::DynamicCovarianceScaling(KERNEL));
+        let robust = solve_robustly(&self.graph, kernel, &Options::default())?;
+        let scan = |submap: usize| self.keyframes[self.submaps[submap].middle].scan;
+        let closures = self.accepted.iter().zip(&robust.weights[self.tracked..]);
+        let closures = closures.map(|(found, &weight)| Closure {
+            earlier: scan(found.reference),
+            later: scan(found.query),
+            relative: found.relative.mean,
+            agreement: found.agreement,
+            weight,
+        });
+        Ok(ClosedTrack { poses: spread(&self.keyframes, &robust.poses, track), closures: closures.collect() })
+    }
+}
+
+/// The pose of every scan: between keyframes the tracked motion, bent so that it begins and ends at theirs.
+fn spread(keyframes: &[Keyframe], poses: &[Pose], track: &Track) -> Vec<Pose> {
+    let mut all = vec![Pose::IDENTITY; track.scans.len()];
+    for (index, pair) in keyframes.windows(2).enumerate() {
+        let (start, end) = (poses[index], poses[index + 1]);
+        let last = start.compose(pair[0].tracked.between(pair[1].tracked));
+        let correction = last.between(end).log();
+        let length = (pair[1].scan - pair[0].scan) as f64;
+        for scan in pair[0].scan..=pair[1].scan {
+            let share = (scan - pair[0].scan) as f64 / length;
+            let moved = start.compose(pair[0].tracked.between(track.scans[scan].pose));
+            all[scan] = moved.compose(Pose::exp(correction * share));
+        }
+    }
+    if let ([_], [only]) = (keyframes, poses) {
+        all.fill(*only);
+    }
+    all
+}

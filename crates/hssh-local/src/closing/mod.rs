@@ -1,0 +1,14 @@
+//! Closing loops: where the robot was before, found by matching what it saw along stretches of its way, and the
+//! trajectory that all of this and its tracked motion agree with best (section 2.1.4).
+
+mod chain;
+mod close;
+mod field;
+mod keyframe;
+mod matching;
+mod options;
+mod search;
+mod submap;
+
+pub use close::{ClosedTrack, Closure, ClosingError, close_loops};
+pub use options::ClosingOptions;

@@ -1,0 +1,89 @@
+//! Submaps: what was seen along a stretch of the way, in the frame of its middle.
+
+use hssh_metrics::Pose;
+use nalgebra::{Vector2, vector};
+
+use super::field::Field;
+use super::keyframe::Keyframe;
+use super::options::ClosingOptions;
+use crate::carmen::LaserLog;
+use crate::grid::{Cell, LatticeError, Occupancy};
+use crate::local_map::{LocalMap, LocalMapOptions};
+use crate::matching::{Cloud, SurfacePoint};
+
+/// Side of a cell, in metres.
+pub(super) const CELL: f64 = 0.1;
+
+/// What was seen along a stretch of the way.
+pub(super) struct Submap {
+    /// The keyframe in the middle, whose frame is the submap's.
+    pub(super) middle: usize,
+    /// The keyframes of the stretch.
+    pub(super) keyframes: std::ops::Range<usize>,
+    /// Metres travelled at the middle.
+    pub(super) travelled: f64,
+    /// The middles of walls' cells, about one in 0.2 m.
+    pub(super) walls: Vec<Vector2<f64>>,
+    /// How well a wall fits where.
+    pub(super) field: Field,
+}
+
+/// Which keyframes are the middles of submaps.
+pub(super) fn middles(keyframes: &[Keyframe], options: &ClosingOptions) -> Vec<usize> {
+    let mut middles: Vec<usize> = Vec::new();
+    for (index, keyframe) in keyframes.iter().enumerate() {
+        let since = middles.last().map(|&last| keyframe.travelled - keyframes[last].travelled);
+        if since.is_none_or(|since| since >= options.submap_distance) {
+            middles.push(index);
+        }
+    }
+    middles
+}
+
+impl Submap {
+    /// The submap around a keyframe.
+    pub(super) fn new(
+        log: &LaserLog,
+        keyframes: &[Keyframe],
+        middle: usize,
+        options: &ClosingOptions,
+    ) -> Result<Self, LatticeError> {
+        let travelled = keyframes[middle].travelled;
+        let first = keyframes.partition_point(|other| other.travelled < travelled - options.stretch);
+        let last = keyframes.partition_point(|other| other.travelled <= travelled + options.stretch);
+        let side = 2.0 * (options.stretch + options.reach) + 2.0;
+        let defaults = LocalMapOptions::default();
+        let local = LocalMapOptions { side, resolution: CELL, reach: options.reach, ..defaults };
+        let mut map = LocalMap::new(Vector2::zeros(), local)?;
+        for keyframe in &keyframes[first..last] {
+            map.insert(keyframes[middle].tracked.between(keyframe.tracked), &log.scans[keyframe.scan].scan);
+        }
+        let grid = map.classify();
+        let lattice = *grid.lattice();
+        let mut walls: Vec<Vector2<f64>> = Vec::new();
+        let is_wall = |cell: &Cell| grid.get(*cell) == Occupancy::Occupied;
+        for cell in lattice.cells().filter(is_wall).filter(|cell| (cell.column + cell.row) % 2 == 0) {
+            let [x, y] = lattice.center(cell);
+            walls.push(vector![x, y]);
+        }
+        Ok(Submap { middle, keyframes: first..last, travelled, walls, field: Field::new(&grid) })
+    }
+
+    /// The surfaces of the stretch in the submap's frame.
+    pub(super) fn cloud(&self, keyframes: &[Keyframe]) -> Cloud {
+        let mut cloud = Cloud::default();
+        for keyframe in &keyframes[self.keyframes.clone()] {
+            cloud.insert(self.place(keyframes, keyframe), &keyframe.surfaces, 0.08);
+        }
+        cloud
+    }
+
+    /// The same, as a list.
+    pub(super) fn surfaces(&self, keyframes: &[Keyframe]) -> Vec<SurfacePoint> {
+        self.cloud(keyframes).points().to_vec()
+    }
+
+    fn place(&self, keyframes: &[Keyframe], keyframe: &Keyframe) -> Pose {
+        keyframes[self.middle].tracked.between(keyframe.tracked)
+    }
+}
