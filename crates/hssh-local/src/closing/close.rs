@@ -13,6 +13,8 @@ use crate::carmen::LaserLog;
 use crate::grid::LatticeError;
 use crate::matching::Track;
 
+/// How often the log is gone through: what was not found where it was believed to be may be found later.
+const SWEEPS: usize = 2;
 /// So many submaps back a match may have its chain.
 const CHAIN_MEMORY: usize = 4;
 /// Of one submap at most so many others are looked into.
@@ -74,9 +76,11 @@ pub fn close_loops(
 ) -> Result<ClosedTrack, ClosingError> {
     let keyframes = keyframes(log, track, options);
     let mut closing = Closing::new(log, track, keyframes, options)?;
-    for query in 0..closing.submaps.len() {
-        closing.close(query)?;
-        progress(closing.keyframes[closing.submaps[query].middle].scan);
+    for _ in 0..SWEEPS {
+        for query in 0..closing.submaps.len() {
+            closing.close(query)?;
+            progress(closing.keyframes[closing.submaps[query].middle].scan);
+        }
     }
     closing.finish(track)
 }
@@ -230,9 +234,10 @@ impl<'a> Closing<'a> {
     /// How long the way is, by track and closures, from a submap to each earlier one: what the uncertainty of
     /// their relative pose grows with.
     fn ways(&self, from: usize) -> Vec<f64> {
-        let mut ways = vec![f64::INFINITY; from + 1];
-        let mut neighbors: Vec<Vec<(usize, f64)>> = vec![Vec::new(); from + 1];
-        for later in 1..=from {
+        let count = self.submaps.len();
+        let mut ways = vec![f64::INFINITY; count];
+        let mut neighbors: Vec<Vec<(usize, f64)>> = vec![Vec::new(); count];
+        for later in 1..count {
             let length = self.submaps[later].travelled - self.submaps[later - 1].travelled;
             neighbors[later].push((later - 1, length));
             neighbors[later - 1].push((later, length));

@@ -60,6 +60,13 @@ impl LikelihoodField {
         is_inside.then(|| row as usize * self.width + column as usize)
     }
 
+    /// The mean of the hits' log-likelihoods, seen from a pose.
+    pub(super) fn fit(&self, surfaces: &[SurfacePoint], pose: Pose) -> f64 {
+        let rotation = pose.rotation();
+        let hits = surfaces.iter().map(|surface| self.at(pose.translation() + rotation * surface.position));
+        hits.sum::<f64>() / surfaces.len().max(1) as f64
+    }
+
     fn at(&self, position: Vector2<f64>) -> f64 {
         let at = (position - self.origin) / CELL;
         let cell = self.index(at.x.floor() as i64, at.y.floor() as i64);

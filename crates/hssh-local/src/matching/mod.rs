@@ -10,6 +10,6 @@ mod track;
 
 pub(crate) use align::align;
 pub(crate) use cloud::{Cloud, SurfacePoint, surfaces};
-pub use motion::MotionNoise;
+pub use motion::{MotionNoise, Slip};
 pub use options::MatchOptions;
 pub use track::{Track, TrackedScan, Tracker, track};

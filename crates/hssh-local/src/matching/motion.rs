@@ -46,3 +46,29 @@ impl MotionNoise {
         UncertainPose { mean, covariance: covariance.rotated(direction) }
     }
 }
+
+/// Wheels that slip, or stand while the robot is pushed: now and then odometry is off by far more than its noise.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub struct Slip {
+    /// A step is suspected if the hits' mean log-likelihood is below this, in nats: 0 is perfect, −3 hits nothing.
+    pub suspicion: f64,
+    /// How far off the odometry of such a step may be, standard deviations: metres and radians.
+    pub spread: (f64, f64),
+    /// By how much better a slip has to fit to be believed, in nats.
+    pub price: f64,
+}
+
+impl Default for Slip {
+    fn default() -> Self {
+        Slip { suspicion: -0.4, spread: (0.3, 0.1), price: 8.0 }
+    }
+}
+
+impl Slip {
+    /// A motion that may have slipped.
+    pub(super) fn widened(&self, motion: &UncertainPose) -> UncertainPose {
+        let (across, around) = (self.spread.0.powi(2), self.spread.1.powi(2));
+        let wider = motion.covariance.matrix() + Matrix3::from_diagonal(&vector![across, across, around]);
+        UncertainPose { mean: motion.mean, covariance: Covariance::new(wider).unwrap_or(motion.covariance) }
+    }
+}

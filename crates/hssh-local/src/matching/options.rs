@@ -1,6 +1,6 @@
 //! The numbers that scan matching goes by.
 
-use super::motion::MotionNoise;
+use super::motion::{MotionNoise, Slip};
 
 /// The numbers that scan matching goes by, each beside its default.
 #[derive(Clone, Copy, PartialEq, Debug)]
@@ -21,6 +21,8 @@ pub struct MatchOptions {
     pub keyframe_distance: f64,
     /// …or radians of turning.
     pub keyframe_turn: f64,
+    /// What to do where odometry and scans do not fit; `None` believes the odometry.
+    pub slip: Option<Slip>,
     /// How many standard deviations of the odometry the coarse search looks around.
     pub search_sigmas: f64,
     /// However good a match is, a step is not known better than this: metres and radians, standard deviations.
@@ -38,6 +40,7 @@ impl Default for MatchOptions {
             memory: 8.0,
             keyframe_distance: 0.4,
             keyframe_turn: 0.3,
+            slip: Some(Slip::default()),
             search_sigmas: 2.5,
             floor: (0.005, 0.001),
         }

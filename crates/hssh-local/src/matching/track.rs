@@ -123,8 +123,25 @@ pub fn track(log: &LaserLog, options: &MatchOptions, mut progress: impl FnMut(us
     track
 }
 
-/// The motion since the pose `from`: coarse, then fine.
+/// The motion since the pose `from`: coarse, then fine. Where that fits badly the wheels may have slipped.
 fn matched(
+    reference: &Reference,
+    seen: &[SurfacePoint],
+    from: Pose,
+    odometry: &UncertainPose,
+    options: &MatchOptions,
+) -> UncertainPose {
+    let believed = fitted(reference, seen, from, odometry, options);
+    let fit = |step: &UncertainPose| reference.field.fit(seen, from.compose(step.mean));
+    let Some(slip) = options.slip.filter(|slip| fit(&believed) < slip.suspicion) else { return believed };
+    let slipped = fitted(reference, seen, from, &slip.widened(odometry), options);
+    let observations = seen.len() as f64 / options.hits_per_observation;
+    let gain = observations * (fit(&slipped) - fit(&believed));
+    if gain > slip.price { slipped } else { believed }
+}
+
+/// The motion since the pose `from` that fits surfaces and odometry best.
+fn fitted(
     reference: &Reference,
     seen: &[SurfacePoint],
     from: Pose,
