@@ -9,6 +9,7 @@ mod local_map;
 mod map_server;
 mod matching;
 mod place;
+mod route;
 mod scan;
 mod skeleton;
 mod survey;
@@ -30,6 +31,7 @@ pub use place::{
     PlaceConnection, PlaceGraph, PlaceGraphError, PlaceKind, PlaceNumber, PlaceOptions, Sighting, doors,
     hidden_area, neighborhood, sight,
 };
+pub use route::RouteOptions;
 pub use scan::Scan;
 pub use skeleton::{
     AxisPoint, EdgeEnd, EdgeId, FreeSpace, NodeId, Skeleton, SkeletonEdge, SkeletonNode, SkeletonOptions,

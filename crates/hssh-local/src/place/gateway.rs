@@ -28,7 +28,7 @@ pub struct Gateway {
 
 impl Gateway {
     /// The gateway of a width across a way at a point, for somebody who leaves in a direction of length 1.
-    pub(super) fn across(position: [f64; 2], direction: Vector2<f64>, width: f64) -> Self {
+    pub(crate) fn across(position: [f64; 2], direction: Vector2<f64>, width: f64) -> Self {
         let left = vector![-direction.y, direction.x] * (width / 2.0);
         let at = Vector2::from(position);
         let line = [at + left, at - left].map(|end| [end.x, end.y]);

@@ -8,7 +8,7 @@ use super::{Gateway, PlaceOptions};
 
 /// For each gateway the one that continues it across the place, if there is one: pairs that point away
 /// from one another along one line, the straightest first.
-pub(super) fn continuations(gateways: &[Gateway], options: &PlaceOptions) -> Vec<Option<usize>> {
+pub(crate) fn continuations(gateways: &[Gateway], options: &PlaceOptions) -> Vec<Option<usize>> {
     let mut pairs: Vec<(f64, usize, usize)> = Vec::new();
     for first in 0..gateways.len() {
         for second in first + 1..gateways.len() {
@@ -39,7 +39,7 @@ fn turn(one: &Gateway, other: &Gateway) -> f64 {
 
 /// How far two gateways are from being the two ends of a straight path: 0 if they are, at most 2;
 /// `None` if they are no such pair.
-fn crookedness(first: &Gateway, second: &Gateway, options: &PlaceOptions) -> Option<f64> {
+pub(crate) fn crookedness(first: &Gateway, second: &Gateway, options: &PlaceOptions) -> Option<f64> {
     let turn = turn(first, second) / options.straight;
     let offset = (passes_by(first, second) + passes_by(second, first)) / 2.0;
     let mean_width = (first.width + second.width) / 2.0;

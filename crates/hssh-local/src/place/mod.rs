@@ -28,4 +28,5 @@ pub use graph::{
 };
 pub use options::{DoorOptions, GatewayOptions, PlaceOptions};
 pub use sighting::{Sighting, sight};
+pub(crate) use local_path::{continuations, crookedness};
 pub use star::{LocalStar, PlaceKind};

@@ -54,6 +54,15 @@ impl LocalStar {
         Self::with_paths(gateways, &directions(center, gateways), &other)
     }
 
+    /// The same where it is known which gateway continues which.
+    pub(crate) fn with_continuations(
+        center: [f64; 2],
+        gateways: &[Gateway],
+        other: &[Option<usize>],
+    ) -> Option<Self> {
+        Self::with_paths(gateways, &directions(center, gateways), other)
+    }
+
     /// The star of a way that just goes on: one local path between two gateways.
     pub(super) fn passage(gateways: [Gateway; 2]) -> Option<Self> {
         let bearings = gateways.map(|gateway| gateway.bearing);
@@ -61,7 +70,7 @@ impl LocalStar {
     }
 
     /// The end of the star that a gateway is.
-    pub(super) fn olp_of(&self, gateway: &Gateway) -> Option<Olp> {
+    pub(crate) fn olp_of(&self, gateway: &Gateway) -> Option<Olp> {
         self.star.olps().find(|olp| self.gateways[olp.index()].as_ref() == Some(gateway))
     }
 

@@ -3,6 +3,7 @@
 use hssh_causal::ExplorationError;
 use hssh_metrics::UncertaintyError;
 
+use crate::closing::ClosingError;
 use crate::grid::LatticeError;
 
 /// Something that a survey had to decide with little reason.
@@ -34,6 +35,9 @@ pub enum SurveyError {
     /// The options describe no local map.
     #[error("no local map can be made: {0}")]
     LocalMap(#[from] LatticeError),
+    /// Loops that cannot be closed.
+    #[error(transparent)]
+    Closing(#[from] ClosingError),
     /// No place along the way.
     #[error(
         "no place was found along {metres:.0} m of way: nowhere are there other ways out than on and back; \

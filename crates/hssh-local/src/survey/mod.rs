@@ -6,7 +6,6 @@ mod explore;
 mod follow;
 mod options;
 mod resemblance;
-mod stay;
 mod turn;
 mod visit;
 

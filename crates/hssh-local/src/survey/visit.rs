@@ -2,11 +2,10 @@
 
 use hssh_metrics::{Covariance, Pose, UncertainPose, UncertaintyError};
 use hssh_topology::Olp;
-use nalgebra::Vector2;
 
 use super::error::{SurveyError, SurveyWarning};
 use super::options::SurveyOptions;
-use super::stay::Stay;
+use crate::closing::Closure;
 use crate::grid::OccupancyGrid;
 use crate::matching::Track;
 use crate::place::LocalStar;
@@ -18,6 +17,8 @@ pub struct Visit {
     pub scans: (usize, usize),
     /// The scan taken nearest to the center.
     pub reference: usize,
+    /// Which spot it was by the closed loops, counted from 0: visits to one spot show one star.
+    pub spot: usize,
     /// The place's frame in the frame of the track: its origin is where the axes of the gateways meet, and
     /// it is turned as the track is.
     pub frame: Pose,
@@ -38,8 +39,10 @@ pub struct Survey {
     pub visits: Vec<Visit>,
     /// From each visit's frame to that of the next.
     pub travels: Vec<UncertainPose>,
-    /// The robot's way.
+    /// The robot's way, its loops closed; the steps are those measured from scan to scan.
     pub track: Track,
+    /// Where the robot was before, as the laser shows.
+    pub closures: Vec<Closure>,
     /// What was decided with little reason.
     pub warnings: Vec<SurveyWarning>,
 }
@@ -48,6 +51,7 @@ impl Survey {
     pub(super) fn new(
         visits: Vec<Visit>,
         track: Track,
+        closures: Vec<Closure>,
         options: &SurveyOptions,
         warnings: Vec<SurveyWarning>,
     ) -> Result<Self, SurveyError> {
@@ -59,12 +63,12 @@ impl Survey {
                     .map_err(|problem| SurveyError::Motion { visit: index + 1, problem })
             })
             .collect::<Result<_, _>>()?;
-        Ok(Survey { visits, travels, track, warnings })
+        Ok(Survey { visits, travels, track, closures, warnings })
     }
 }
 
-/// The relative pose of two frames: from the center of the one to the robot in it, on with the robot, and
-/// to the center of the other.
+/// The relative pose of two frames: where the closed track has them, as well known as the robot's motion between
+/// them, from the center of the one to the robot in it, on with the robot, and to the center of the other.
 fn travel(
     from: &Visit,
     to: &Visit,
@@ -79,68 +83,9 @@ fn travel(
     };
     let departure = robot_in(from);
     let arrival = robot_in(to).inverse()?;
-    match track.motion(from.reference, to.reference)? {
-        Some(motion) => departure.compose(&motion)?.compose(&arrival),
-        None => departure.compose(&arrival),
-    }
-}
-
-/// Visits from stays: the star, and by which of its ends the robot came and went.
-pub(super) fn visits(
-    stays: Vec<Stay>,
-    track: &Track,
-    options: &SurveyOptions,
-    warnings: &mut Vec<SurveyWarning>,
-) -> Vec<Visit> {
-    let last_scan = track.scans.len() - 1;
-    let borders: Vec<(usize, usize)> = (0..stays.len())
-        .map(|index| {
-            let since = index.checked_sub(1).map_or(0, |before| stays[before].reference);
-            let until = stays.get(index + 1).map_or(last_scan, |next| next.reference);
-            (since, until)
-        })
-        .collect();
-    let count = stays.len();
-    let mut visits = Vec::new();
-    for (index, (stay, (since, until))) in stays.into_iter().zip(borders).enumerate() {
-        let center = stay.sighting.center;
-        let Some(star) = stay.sighting.star(&options.place) else { continue };
-        let mut end_toward = |at: Option<Vector2<f64>>, verb: &'static str| {
-            let (end, offset) = nearest_end(&star, center, at?)?;
-            let width = star.gateways[end.index()].map_or(0.0, |gateway| gateway.width);
-            if offset > width.max(1.0) {
-                warnings.push(SurveyWarning::OffGateways { visit: index + 1, verb, offset });
-            }
-            Some(end)
-        };
-        let came_from = (index > 0).then(|| stay.came_from(track, since)).flatten();
-        let went_to = (index + 1 < count).then(|| stay.went_to(track, until)).flatten();
-        let (entry, exit) = (end_toward(came_from, "came in"), end_toward(went_to, "went out"));
-        visits.push(Visit {
-            scans: (stay.first, stay.last),
-            reference: stay.reference,
-            frame: Pose::new(center.x, center.y, 0.0),
-            star,
-            entry,
-            exit,
-            grid: stay.grid,
-        });
-    }
-    visits
-}
-
-/// The travelable end whose gateway one passes on the way from the center to a point, and how far the
-/// point is off its axis.
-fn nearest_end(star: &LocalStar, center: Vector2<f64>, at: Vector2<f64>) -> Option<(Olp, f64)> {
-    let ends = star.star.gateways().filter_map(|olp| Some((olp, star.gateways[olp.index()]?)));
-    let offsets = ends.map(|(olp, gateway)| {
-        let from_gateway = at - Vector2::from(gateway.position);
-        let outward = Vector2::new(gateway.bearing.cos(), gateway.bearing.sin());
-        let along = from_gateway.dot(&outward);
-        let across = (from_gateway - outward * along).norm();
-        // A point on the inner side of a gateway is as far from it as it is from the gateway's middle.
-        let is_beyond = along > 0.0 && (at - center).dot(&outward) > 0.0;
-        (olp, if is_beyond { across } else { from_gateway.norm() })
-    });
-    offsets.min_by(|a, b| a.1.total_cmp(&b.1))
+    let measured = match track.motion(from.reference, to.reference)? {
+        Some(motion) => departure.compose(&motion)?.compose(&arrival)?,
+        None => departure.compose(&arrival)?,
+    };
+    Ok(UncertainPose { mean: from.frame.between(to.frame), covariance: measured.covariance })
 }

@@ -65,7 +65,7 @@ pub(crate) fn surveyed(
     let unreadable = |error| Failure::ReadLog { file: file.to_owned(), error: Box::new(error) };
     let log = LaserLog::read(source.into_content()).map_err(unreadable)?;
     let scans = log.scans.len() as u64;
-    let bar = ProgressBar::with_draw_target(Some(2 * scans), ProgressDrawTarget::stderr_with_hz(10));
+    let bar = ProgressBar::with_draw_target(Some(3 * scans), ProgressDrawTarget::stderr_with_hz(10));
     if let Ok(style) = ProgressStyle::with_template("{spinner} {msg} {bar:30} {percent}%  {elapsed}") {
         bar.set_style(style);
     }
@@ -73,7 +73,8 @@ pub(crate) fn surveyed(
     let surveyed = SurveyedLog::new(log, options, |stage, done| {
         let (message, before) = match stage {
             SurveyStage::Tracking => ("matching scans", 0),
-            SurveyStage::Looking => ("looking for places", scans),
+            SurveyStage::Closing => ("closing loops", scans),
+            SurveyStage::Looking => ("looking for places", 2 * scans),
         };
         bar.set_message(message);
         bar.set_position(before + done as u64);
