@@ -36,7 +36,7 @@ impl Default for RouteOptions {
             island: 2.0,
             island_walls: 0.25,
             shortest_branch: 1.0,
-            one_spot: 3.0,
+            one_spot: 2.0,
             reach: 1.5,
             look_distance: 1.0,
             same_place: 3.0,

@@ -65,13 +65,13 @@ fn seen_along(
         let Some(nearest) = (0..ways.points.len()).min_by(|a, b| off(a).total_cmp(&off(b))) else { continue };
         let along = ways.along[nearest];
         let is_at_end = ends.iter().any(|end| (end - seen.center).norm() <= options.same_place);
-        let is_inside = along > options.one_spot && ways.length() - along > options.one_spot;
+        let is_inside = along > options.same_place && ways.length() - along > options.same_place;
         if off(&nearest) <= options.same_place && !is_at_end && is_inside {
             at.push(along);
         }
     }
     at.sort_by(f64::total_cmp);
-    at.dedup_by(|later, earlier| *later - *earlier < options.one_spot);
+    at.dedup_by(|later, earlier| *later - *earlier < options.same_place);
     at
 }
 

@@ -11,7 +11,7 @@ use super::places::{WaysOut, add_sighted, ways_out};
 use super::travelled::travelled;
 use super::walk::{Stay, walk};
 use crate::grid::OccupancyGrid;
-use crate::place::{LocalStar, PlaceOptions};
+use crate::place::{LocalStar, PlaceKind, PlaceOptions};
 
 /// A visit on a route.
 #[derive(Clone, Debug)]
@@ -62,7 +62,12 @@ pub(crate) fn route(
         .zip(&pairing)
         .map(|(out, pairing)| LocalStar::with_continuations(out.center.into(), &out.gateways, pairing))
         .collect();
-    let stays = between_places(walk(&network, &travelled, poses, options), &network, &out);
+    let is_passage: Vec<bool> = stars
+        .iter()
+        .map(|star| star.as_ref().is_none_or(|star| star.kind() == PlaceKind::Passage))
+        .collect();
+    let stays = without_passages(walk(&network, &travelled, poses, options), &is_passage);
+    let stays = between_places(stays, &network, &out);
     let mut number: Vec<Option<usize>> = vec![None; network.spots.len()];
     let mut route = Route::default();
     for stay in &stays {
@@ -86,6 +91,21 @@ pub(crate) fn route(
         });
     }
     route
+}
+
+/// The stays at spots that are more than a way that goes on. What turned back at such a spot turned back on the way,
+/// and never left the place before.
+fn without_passages(stays: Vec<Stay>, is_passage: &[bool]) -> Vec<Stay> {
+    let mut kept: Vec<Stay> = Vec::new();
+    for stay in stays.into_iter().filter(|stay| !is_passage[stay.spot]) {
+        match kept.last_mut() {
+            Some(last) if last.spot == stay.spot && last.left == stay.came => {
+                (last.scans.1, last.left) = (stay.scans.1, stay.left);
+            }
+            _ => kept.push(stay),
+        }
+    }
+    kept
 }
 
 /// The stays without the spots where the log just begins or ends: nothing there was seen to be a place.
