@@ -17,7 +17,7 @@ mod survey;
 pub use carmen::{
     LaserLog, LaserMessage, LogError, LogReader, LogWarning, LoggedScan, Message, MessageProblem,
 };
-pub use closing::{ClosedTrack, Closure, ClosingError, ClosingOptions, close_loops};
+pub use closing::{ClosedTrack, ClosingError, ClosingOptions, Closure, close_loops};
 pub use distance::DistanceField;
 pub use global_map::{global_map, global_poses, mean_wall_distance, visit_frames};
 pub use grid::{Cell, CellLine, GridError, Lattice, LatticeError, Occupancy, OccupancyGrid};
@@ -38,5 +38,6 @@ pub use skeleton::{
     Tip, UnknownSpace,
 };
 pub use survey::{
-    Resemblance, Survey, SurveyError, SurveyOptions, SurveyStage, SurveyWarning, Visit, resemblance, survey,
+    Evidence, PerceptionModel, Resemblance, Survey, SurveyError, SurveyOptions, SurveyStage, SurveyWarning,
+    Visit, resemblance, survey,
 };

@@ -1,7 +1,9 @@
 //! The loop over the submaps in the order of the log: look for each among the earlier ones near to where it is
 //! believed to be, accept chains of matches, and solve the pose graph anew where they move it.
 
-use hssh_metrics::{Edge, GraphError, Kernel, Options, Pose, PoseGraph, PoseId, SolveError, solve, solve_robustly};
+use hssh_metrics::{
+    Edge, GraphError, Kernel, Options, Pose, PoseGraph, PoseId, SolveError, solve, solve_robustly,
+};
 
 use super::chain::{agree, told};
 use super::keyframe::{Keyframe, keyframes};
@@ -157,9 +159,6 @@ impl<'a> Closing<'a> {
             }
             tried.push(reference);
             let matched = find(&self.submaps, &self.keyframes, (query, reference), &window, self.options);
-            if std::env::var_os("CLOSING").is_some() {
-                eprintln!("{query} {reference} window {:.1} {:.2}: {matched:?}", window.across, window.around);
-            }
             found.extend(matched.filter(|found| {
                 found.is_clear
                     && found.agreement >= self.options.least_agreement
@@ -208,7 +207,12 @@ impl<'a> Closing<'a> {
                 continue;
             }
             let (from, to) = (self.submaps[one.reference].middle, self.submaps[one.query].middle);
-            let edge = Edge::observed(PoseId(from as u32), PoseId(to as u32), one.relative.mean, &one.relative.covariance);
+            let edge = Edge::observed(
+                PoseId(from as u32),
+                PoseId(to as u32),
+                one.relative.mean,
+                &one.relative.covariance,
+            );
             let off = edge.error(self.graph.poses()[from], self.graph.poses()[to]);
             farthest = farthest.max(off.xy().norm()).max(10.0 * off.z.abs());
             self.graph.add_edge(edge)?;

@@ -48,7 +48,8 @@ impl Field {
             let off = squared.sqrt() * lattice.resolution();
             let fit = (-0.5 * (off / BLUR).powi(2)).exp();
             let is_contradicted = grid.get(cell) == Occupancy::Free && off > NEAR;
-            let value = if is_contradicted { (CONTRADICTION * ((off - NEAR) / NEAR).min(1.0)).min(fit) } else { fit };
+            let value =
+                if is_contradicted { (CONTRADICTION * ((off - NEAR) / NEAR).min(1.0)).min(fit) } else { fit };
             (value * UNIT).round() as i8
         };
         let base = Level {
@@ -71,10 +72,16 @@ impl Field {
                     single[block] = single[block].max(below.values[(row * below.width + column) as usize]);
                 }
             }
-            let at = |column: i32, row: i32| {
-                let is_inside = column < width && row < height;
-                if is_inside { single[(row * width + column) as usize].max(if column + 1 == width || row + 1 == height { 0 } else { i8::MIN }) } else { 0 }
-            };
+            let at =
+                |column: i32, row: i32| {
+                    let is_inside = column < width && row < height;
+                    if is_inside {
+                        single[(row * width + column) as usize]
+                            .max(if column + 1 == width || row + 1 == height { 0 } else { i8::MIN })
+                    } else {
+                        0
+                    }
+                };
             for row in 0..height {
                 for column in 0..width {
                     let corners = [(0, 0), (1, 0), (0, 1), (1, 1)].map(|(c, r)| at(column + c, row + r));

@@ -44,7 +44,8 @@ pub(super) fn find(
     let walls: Vec<Vector2<f64>> = other.walls.iter().step_by(step).copied().collect();
     let best = search(&one.field, &walls, window, options.least_score, None)?;
     let is_clear = window.across <= SMALL
-        || search(&one.field, &walls, window, options.ambiguity * best.score, Some((best.pose, APART))).is_none();
+        || search(&one.field, &walls, window, options.ambiguity * best.score, Some((best.pose, APART)))
+            .is_none();
     let prior = UncertainPose {
         mean: best.pose,
         covariance: Covariance::from_standard_deviations(0.5, 0.5, 0.1).expect("positive"),

@@ -10,5 +10,5 @@ mod options;
 mod search;
 mod submap;
 
-pub use close::{ClosedTrack, Closure, ClosingError, close_loops};
+pub use close::{ClosedTrack, ClosingError, Closure, close_loops};
 pub use options::ClosingOptions;

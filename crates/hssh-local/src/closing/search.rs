@@ -42,7 +42,8 @@ pub(super) fn search(
     but: Option<(Pose, f64)>,
 ) -> Option<Fit> {
     let steps = (window.around / TURN).ceil() as i32;
-    let headings: Vec<f64> = (-steps..=steps).map(|step| window.center.theta + f64::from(step) * TURN).collect();
+    let headings: Vec<f64> =
+        (-steps..=steps).map(|step| window.center.theta + f64::from(step) * TURN).collect();
     let cells: Vec<Vec<(i32, i32)>> = headings
         .iter()
         .map(|&theta| {
@@ -58,7 +59,12 @@ pub(super) fn search(
         for row in (-across..=across).step_by(1 << top) {
             for column in (-across..=across).step_by(1 << top) {
                 let shift = (column, row);
-                blocks.push(Block { heading, shift, level: top, bound: field.score(&cells[heading], shift, top) });
+                blocks.push(Block {
+                    heading,
+                    shift,
+                    level: top,
+                    bound: field.score(&cells[heading], shift, top),
+                });
             }
         }
     }
@@ -92,7 +98,12 @@ pub(super) fn search(
         let half = 1 << level;
         let mut children = [(0, 0), (half, 0), (0, half), (half, half)].map(|(column, row)| {
             let shift = (block.shift.0 + column, block.shift.1 + row);
-            Block { heading: block.heading, shift, level, bound: field.score(&cells[block.heading], shift, level) }
+            Block {
+                heading: block.heading,
+                shift,
+                level,
+                bound: field.score(&cells[block.heading], shift, level),
+            }
         });
         children.sort_by(|a, b| a.bound.total_cmp(&b.bound));
         blocks.extend(children.into_iter().filter(|child| child.bound > least));

@@ -26,7 +26,7 @@ pub use graph::{
     GridPlace, Neighborhood, NeighborhoodError, OpenEnd, PlaceConnection, PlaceGraph, PlaceGraphError,
     PlaceNumber, neighborhood,
 };
+pub(crate) use local_path::{continuations, crookedness};
 pub use options::{DoorOptions, GatewayOptions, PlaceOptions};
 pub use sighting::{Sighting, sight};
-pub(crate) use local_path::{continuations, crookedness};
 pub use star::{LocalStar, PlaceKind};

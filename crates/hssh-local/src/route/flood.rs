@@ -36,7 +36,9 @@ pub(super) fn flood(
                 continue;
             }
             for (columns, rows) in (-1..=1).flat_map(|rows| (-1..=1).map(move |columns| (columns, rows))) {
-                let Some(next) = lattice.step(cell, columns, rows).filter(|&next| is_free(next)) else { continue };
+                let Some(next) = lattice.step(cell, columns, rows).filter(|&next| is_free(next)) else {
+                    continue;
+                };
                 let farther = distance as u32 + if columns != 0 && rows != 0 { DIAGONAL } else { STRAIGHT };
                 let next_index = lattice.index(next);
                 if farther < fifths[next_index] && farther as usize <= most {

@@ -86,7 +86,8 @@ impl Network {
     /// Junctions that short ways join become one spot.
     fn of(skeleton: &Skeleton, options: &RouteOptions) -> Self {
         let mut group: Vec<usize> = (0..skeleton.nodes.len()).collect();
-        let lengths: Vec<f64> = skeleton.edges.iter().map(|edge| crate::skeleton::length(&edge.points)).collect();
+        let lengths: Vec<f64> =
+            skeleton.edges.iter().map(|edge| crate::skeleton::length(&edge.points)).collect();
         let is_junction = |node: usize| skeleton.nodes[node].ends.len() > 2;
         let is_core = |edge: usize| {
             let [from, to] = skeleton.edges[edge].nodes.map(|node| node.index());
@@ -117,7 +118,8 @@ impl Network {
             if is_core(index) {
                 network.spots[spots[0]].core.extend(cells);
             } else {
-                let points = edge.points.iter().map(|point| vector![point.point[0], point.point[1]]).collect();
+                let points =
+                    edge.points.iter().map(|point| vector![point.point[0], point.point[1]]).collect();
                 network.ways.push(Way::new(cells.collect(), points, spots));
             }
         }
@@ -145,12 +147,21 @@ impl Network {
             self.spots.push(Spot { center: old.points[index], arms: Vec::new(), core: Vec::new() });
             let next = self.spots.len() - 1;
             added.push(next);
-            let part = Way::new(old.cells[first..=index].to_vec(), old.points[first..=index].to_vec(), [spot, next]);
-            if number == 0 { self.ways[way] = part } else { self.ways.push(part) }
+            let part =
+                Way::new(old.cells[first..=index].to_vec(), old.points[first..=index].to_vec(), [spot, next]);
+            if number == 0 {
+                self.ways[way] = part
+            } else {
+                self.ways.push(part)
+            }
             (first, spot) = (index, next);
         }
         if !at.is_empty() {
-            self.ways.push(Way::new(old.cells[first..].to_vec(), old.points[first..].to_vec(), [spot, old.spots[1]]));
+            self.ways.push(Way::new(
+                old.cells[first..].to_vec(),
+                old.points[first..].to_vec(),
+                [spot, old.spots[1]],
+            ));
         }
         self.connect();
         added
@@ -162,7 +173,9 @@ impl Network {
         let mut distance = vec![f64::INFINITY; self.spots.len()];
         let mut open = vec![from];
         distance[from] = 0.0;
-        while let Some(position) = (0..open.len()).min_by(|&a, &b| distance[open[a]].total_cmp(&distance[open[b]])) {
+        while let Some(position) =
+            (0..open.len()).min_by(|&a, &b| distance[open[a]].total_cmp(&distance[open[b]]))
+        {
             let spot = open.swap_remove(position);
             if spot == to {
                 break;

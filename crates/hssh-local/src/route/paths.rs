@@ -37,7 +37,11 @@ pub(super) fn pair(network: &Network, ways_out: &[WaysOut], options: &PlaceOptio
 }
 
 /// The pairs along a path that meets a spot twice, if there is one.
-fn improper(network: &Network, ways_out: &[WaysOut], pairing: &Pairing) -> Option<Vec<(usize, usize, usize)>> {
+fn improper(
+    network: &Network,
+    ways_out: &[WaysOut],
+    pairing: &Pairing,
+) -> Option<Vec<(usize, usize, usize)>> {
     let mut is_done: BTreeSet<usize> = BTreeSet::new();
     for way in 0..network.ways.len() {
         if !is_done.insert(way) {

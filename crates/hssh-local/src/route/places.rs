@@ -50,7 +50,8 @@ fn seen_along(
     let mut seen: Vec<Seen> = Vec::new();
     for look in 0..=looks {
         let from = ways.point_from(false, look as f64 * options.look_distance);
-        let Some(sighting) = look_at(building, from, window, place).filter(|sighting| sighting.is_place) else {
+        let Some(sighting) = look_at(building, from, window, place).filter(|sighting| sighting.is_place)
+        else {
             continue;
         };
         match seen.iter_mut().find(|seen| (seen.center - sighting.center).norm() <= options.same_place) {
@@ -75,7 +76,12 @@ fn seen_along(
     at
 }
 
-fn look_at(building: &OccupancyGrid, from: Vector2<f64>, window: f64, place: &PlaceOptions) -> Option<Sighting> {
+fn look_at(
+    building: &OccupancyGrid,
+    from: Vector2<f64>,
+    window: f64,
+    place: &PlaceOptions,
+) -> Option<Sighting> {
     let grid = building.window([from.x, from.y], window)?;
     sight(&grid, from, place)
 }
@@ -99,7 +105,8 @@ pub(super) fn ways_out(
     for arm in &network.spots[spot].arms {
         let way = &network.ways[arm.way];
         let start = options.reach.min(way.length() / 3.0);
-        let (from, to) = (way.point_from(arm.is_last, start), way.point_from(arm.is_last, start + options.aim));
+        let (from, to) =
+            (way.point_from(arm.is_last, start), way.point_from(arm.is_last, start + options.aim));
         let outward = if (to - from).norm() > 1e-6 { to - from } else { from - center };
         let direction = outward.try_normalize(1e-9).unwrap_or_else(Vector2::x);
         let bearing = direction.y.atan2(direction.x);

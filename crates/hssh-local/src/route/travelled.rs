@@ -12,7 +12,8 @@ pub(super) fn travelled(building: &OccupancyGrid, poses: &[Pose], options: &Rout
     let way = cells_along(&lattice, poses);
     let is_free = |cell: Cell| building.get(cell) != Occupancy::Occupied;
     let near = flood(&lattice, &way, options.lane, is_free);
-    let cells = near.iter().map(|&near| if near == UNREACHED { Occupancy::Occupied } else { Occupancy::Free });
+    let cells =
+        near.iter().map(|&near| if near == UNREACHED { Occupancy::Occupied } else { Occupancy::Free });
     let mut grid = OccupancyGrid::new(lattice, cells.collect()).expect("there is one cell for each");
     fill_islands(&mut grid, building, options);
     grid
@@ -50,7 +51,10 @@ fn fill_islands(grid: &mut OccupancyGrid, building: &OccupancyGrid, options: &Ro
             at += 1;
         }
         let is_border = |cell: &Cell| {
-            cell.column == 0 || cell.row == 0 || cell.column + 1 == lattice.width() || cell.row + 1 == lattice.height()
+            cell.column == 0
+                || cell.row == 0
+                || cell.column + 1 == lattice.width()
+                || cell.row + 1 == lattice.height()
         };
         let walls = island.iter().filter(|&&cell| building.get(cell) == Occupancy::Occupied).count();
         let unseen = island.iter().filter(|&&cell| building.get(cell) == Occupancy::Unknown).count();

@@ -62,10 +62,8 @@ pub(crate) fn route(
         .zip(&pairing)
         .map(|(out, pairing)| LocalStar::with_continuations(out.center.into(), &out.gateways, pairing))
         .collect();
-    let is_passage: Vec<bool> = stars
-        .iter()
-        .map(|star| star.as_ref().is_none_or(|star| star.kind() == PlaceKind::Passage))
-        .collect();
+    let is_passage: Vec<bool> =
+        stars.iter().map(|star| star.as_ref().is_none_or(|star| star.kind() == PlaceKind::Passage)).collect();
     let stays = without_passages(walk(&network, &travelled, poses, options), &is_passage);
     let stays = between_places(stays, &network, &out);
     let mut number: Vec<Option<usize>> = vec![None; network.spots.len()];

@@ -9,23 +9,27 @@ use crate::grid::LatticeError;
 /// Something that a survey had to decide with little reason.
 #[derive(Clone, PartialEq, Debug, thiserror::Error)]
 pub enum SurveyWarning {
-    /// The robot's way meets no gateway of the star well.
-    #[error("visit {visit}: the robot {verb} {offset:.1} m off its nearest gateway; the star may lack one")]
-    OffGateways {
-        /// The visit, counted from 1.
-        visit: usize,
-        /// "came in" or "went out".
-        verb: &'static str,
-        /// How far from the axis of the gateway, in metres.
-        offset: f64,
-    },
-    /// A sighting that no other confirmed.
-    #[error("scan {scan}: something like a place was left out, for it was sighted only {times} times")]
-    Fleeting {
-        /// The scan, counted from 1.
+    /// A match that the rest of the log contradicts.
+    #[error(
+        "scan {scan}: what it shows looks like what scan {earlier} showed, and the rest of the log contradicts that; \
+         it was left out"
+    )]
+    Contradicted {
+        /// The later scan, counted from 1.
         scan: usize,
-        /// How often it was sighted.
-        times: usize,
+        /// The earlier one, counted from 1.
+        earlier: usize,
+    },
+    /// A return that no match confirms.
+    #[error(
+        "scan {scan}: the robot seems to be back where scan {earlier} was taken, and what the laser shows does not \
+         confirm it"
+    )]
+    Unconfirmed {
+        /// The later scan, counted from 1.
+        scan: usize,
+        /// The earlier one, counted from 1.
+        earlier: usize,
     },
 }
 

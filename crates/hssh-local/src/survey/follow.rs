@@ -4,6 +4,7 @@
 use hssh_metrics::Pose;
 
 use super::error::SurveyError;
+use super::evidence::evidence;
 use super::options::SurveyOptions;
 use super::visit::{Survey, Visit};
 use crate::carmen::LaserLog;
@@ -62,14 +63,16 @@ pub fn survey(
             grid: building.window(center.into(), options.window).unwrap_or_else(|| building.clone()),
         }
     });
-    Survey::new(visits.collect(), track, closed.closures, options, Vec::new())
+    let (evidence, warnings) = evidence(&track, &closed.closures);
+    Survey::new(visits.collect(), track, closed.closures, evidence, options, warnings)
 }
 
 /// How the map of the building is drawn: with cells so large that the routes' grid has not too many.
 fn building_options(poses: &[Pose], options: &SurveyOptions) -> LocalMapOptions {
     let reach = options.local_map.reach;
     let span = |axis: fn(&Pose) -> f64| {
-        let (low, high) = poses.iter().map(axis).fold((0.0_f64, 0.0_f64), |(low, high), at| (low.min(at), high.max(at)));
+        let (low, high) =
+            poses.iter().map(axis).fold((0.0_f64, 0.0_f64), |(low, high), at| (low.min(at), high.max(at)));
         high - low
     };
     let side = span(|pose| pose.x).max(span(|pose| pose.y)) + 2.0 * reach;

@@ -2,6 +2,7 @@
 //! it came and went, and how far it was from one to the next (section 2.4).
 
 mod error;
+mod evidence;
 mod explore;
 mod follow;
 mod options;
@@ -10,6 +11,7 @@ mod turn;
 mod visit;
 
 pub use error::{SurveyError, SurveyWarning};
+pub use evidence::{Evidence, PerceptionModel};
 pub use follow::{SurveyStage, survey};
 pub use options::SurveyOptions;
 pub use resemblance::{Resemblance, resemblance};

@@ -4,6 +4,7 @@ use hssh_metrics::{Covariance, Pose, UncertainPose, UncertaintyError};
 use hssh_topology::Olp;
 
 use super::error::{SurveyError, SurveyWarning};
+use super::evidence::Evidence;
 use super::options::SurveyOptions;
 use crate::closing::Closure;
 use crate::grid::OccupancyGrid;
@@ -43,6 +44,8 @@ pub struct Survey {
     pub track: Track,
     /// Where the robot was before, as the laser shows.
     pub closures: Vec<Closure>,
+    /// What speaks for these closures, and against them.
+    pub evidence: Evidence,
     /// What was decided with little reason.
     pub warnings: Vec<SurveyWarning>,
 }
@@ -52,6 +55,7 @@ impl Survey {
         visits: Vec<Visit>,
         track: Track,
         closures: Vec<Closure>,
+        evidence: Evidence,
         options: &SurveyOptions,
         warnings: Vec<SurveyWarning>,
     ) -> Result<Self, SurveyError> {
@@ -63,7 +67,7 @@ impl Survey {
                     .map_err(|problem| SurveyError::Motion { visit: index + 1, problem })
             })
             .collect::<Result<_, _>>()?;
-        Ok(Survey { visits, travels, track, closures, warnings })
+        Ok(Survey { visits, travels, track, closures, evidence, warnings })
     }
 }
 
