@@ -1,7 +1,8 @@
 //! Visits: places as the robot met them, and the ways between them.
 
 use hssh_metrics::{Covariance, Pose, UncertainPose, UncertaintyError};
-use hssh_topology::Olp;
+use hssh_topology::{Olp, PlaceId, Position};
+use rustc_hash::FxHashMap;
 
 use super::error::{SurveyError, SurveyWarning};
 use super::evidence::Evidence;
@@ -68,6 +69,21 @@ impl Survey {
             })
             .collect::<Result<_, _>>()?;
         Ok(Survey { visits, travels, track, closures, evidence, warnings })
+    }
+}
+
+impl Survey {
+    /// Whether a map has the visits at the same places as the closed loops have them. `positions` says for each visit
+    /// which place it was to.
+    #[must_use]
+    pub fn agrees_with(&self, positions: &[Position]) -> bool {
+        let mut place_of: FxHashMap<usize, PlaceId> = FxHashMap::default();
+        let mut spot_of: FxHashMap<PlaceId, usize> = FxHashMap::default();
+        self.visits.len() == positions.len()
+            && self.visits.iter().zip(positions).all(|(visit, position)| {
+                *place_of.entry(visit.spot).or_insert(position.place) == position.place
+                    && *spot_of.entry(position.place).or_insert(visit.spot) == visit.spot
+            })
     }
 }
 

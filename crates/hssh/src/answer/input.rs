@@ -12,8 +12,21 @@ pub enum InputKind {
     LaserLog,
 }
 
+/// What the places of a log rest on: where the laser showed that the robot was back.
+#[derive(Clone, Copy, PartialEq, Debug, Serialize, Deserialize)]
+pub struct AnsweredEvidence {
+    /// How often the robot came back to a stretch of its way, as the laser shows.
+    pub returns: u64,
+    /// How many stretches looked like an earlier one, and the rest of the log contradicts that.
+    pub contradicted: u64,
+    /// How many times the robot seems to be back and the laser does not show it.
+    pub unconfirmed: u64,
+    /// How probable it is that none of this misleads; a factor of the probability of every map.
+    pub probability: f64,
+}
+
 /// What was to be explained.
-#[derive(Clone, PartialEq, Eq, Debug, Serialize, Deserialize)]
+#[derive(Clone, PartialEq, Debug, Serialize, Deserialize)]
 pub struct AnsweredInput {
     /// The file or other source, as it was given.
     pub name: String,
@@ -31,6 +44,9 @@ pub struct AnsweredInput {
     /// How many of them could be used.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub scans_used: Option<u64>,
+    /// Of a log: what its places rest on.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub evidence: Option<AnsweredEvidence>,
 }
 
 impl AnsweredInput {

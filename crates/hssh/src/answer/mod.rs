@@ -24,7 +24,7 @@ pub use difference::{MapDifference, PartingVisit, TestTravels};
 pub use error::{AnswerError, DisagreementError};
 pub use explanation::Explanation;
 pub use hssh_search::StopReason;
-pub use input::{AnsweredInput, InputKind};
+pub use input::{AnsweredEvidence, AnsweredInput, InputKind};
 pub use map::{AnsweredMap, CostItem, CostSheet, CurrentPosition, MapMeasure};
 pub use picture::{MapPicture, PictureError};
 pub use place::{AnsweredEnd, AnsweredLink, AnsweredPath, AnsweredPlace, EndReference, EndState, PlacedPose};

@@ -8,7 +8,7 @@ use super::certificate::Worth;
 use super::map::AnsweredMap;
 use super::search::{Objective, SearchOrder};
 use super::verdict::VerdictKind;
-use super::{Answer, Assumption};
+use super::{Answer, Assumption, WarningKind};
 
 /// What to print of an answer.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
@@ -23,13 +23,32 @@ impl Answer {
     /// The answer for people to read.
     #[must_use]
     pub fn to_text(&self, listing: Listing) -> String {
-        let mut text = self.account();
+        let mut text = self.doubt().map(|doubt| format!("DOUBTFUL: {doubt}\n")).unwrap_or_default();
+        text += &self.account();
         if listing.levels {
             text += &self.levels();
         }
         text += &self.conclusion(listing);
         text += &self.ranking(listing);
         text
+    }
+
+    /// Why the best map may well be wrong, if it may.
+    #[must_use]
+    pub fn doubt(&self) -> Option<String> {
+        let improbable = self.warnings.iter().find(|warning| warning.kind == WarningKind::ImprobableTravel);
+        if let Some(warning) = improbable {
+            return Some(warning.to_string());
+        }
+        let [least, most] = self.maps.first()?.probability?;
+        if most < 0.5 {
+            return Some(format!("the best map has a probability of at most {most:.2}"));
+        }
+        (least < 0.5).then(|| {
+            format!(
+                "the best map is all that is known of it: its probability is between {least:.2} and {most:.2}"
+            )
+        })
     }
 
     /// What the search did.
@@ -67,6 +86,13 @@ impl Answer {
                     let _ = writeln!(text, "  removed: {:<23}{removed:>14}", axiom.to_string());
                 }
             }
+        }
+        if let Some(evidence) = &input.evidence {
+            let _ = writeln!(
+                text,
+                "  returns shown by the laser      {:>14}\n  … not confirmed by it           {:>14}\n  … contradicted by the rest      {:>14}\n  nothing of this misleads with a probability of {:.3}",
+                evidence.returns, evidence.unconfirmed, evidence.contradicted, evidence.probability
+            );
         }
         text + &self.proof()
     }
@@ -158,8 +184,10 @@ impl Answer {
 fn row(map: &AnsweredMap) -> String {
     let mark = if map.optimal { '*' } else { ' ' };
     let mut text = format!("{:>6} {mark}", map.rank);
-    if let (Some([_, most]), Some(costs)) = (map.probability, &map.costs) {
-        let _ = write!(text, "{most:>13.3e}{:>11.3}{:>9.2}", costs.total, costs.of("bend"));
+    if let (Some([least, most]), Some(costs)) = (map.probability, &map.costs) {
+        // A probability that is only bounded must not read like one that is known.
+        let probability = if least >= 0.99 * most { format!("{most:.3e}") } else { format!("≤{most:.3e}") };
+        let _ = write!(text, "{probability:>13}{:>11.3}{:>9.2}", costs.total, costs.of("bend"));
     }
     let measure = map.measure;
     let _ = write!(

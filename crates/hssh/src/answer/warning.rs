@@ -22,10 +22,12 @@ pub enum WarningKind {
     LaserPose,
     /// Odometry that is possible and hardly meant, such as degrees for radians.
     Questionable,
-    /// The robot came in or went out where the star has no gateway.
-    OffGateways,
-    /// Something like a place that was sighted too seldom.
-    Fleeting,
+    /// Scans that look like earlier ones where the rest of the log contradicts that.
+    ContradictedReturn,
+    /// The robot seems to be back, and what the laser shows does not confirm it.
+    UnconfirmedReturn,
+    /// The best map bends a measured travel by more than its covariance can explain.
+    ImprobableTravel,
     /// The places of a map have no poses although travels were measured.
     NoPoses,
     /// More threads were asked for than are of use.

@@ -85,6 +85,13 @@ pub(crate) struct MapArguments {
     /// ROS map_server.
     #[arg(long, value_name = "FILE")]
     pub(crate) grid: Option<PathBuf>,
+    /// With a laser log: write where every scan was taken, in TUM form: time x y z qx qy qz qw, a line for each scan
+    /// in the order of the log, in metres in the frame of the first place.
+    #[arg(long, value_name = "FILE")]
+    pub(crate) trajectory: Option<PathBuf>,
+    /// Draw and write the map of this rank instead of the best ones.
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
+    pub(crate) rank: Option<u32>,
     /// With a laser log: let the likeness of local maps count with this weight. Neighboring cells of a local map are
     /// not independent, so that 1 is too much [default: 0].
     #[arg(long, value_name = "WEIGHT", value_parser = not_negative)]

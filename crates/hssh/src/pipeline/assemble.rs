@@ -33,7 +33,7 @@ impl Assembly<'_> {
             branch: self.found.branch.clone(),
             optimal: self.found.optimal,
             tied: self.found.tied,
-            probability: self.found.probability,
+            probability: self.probability(),
             costs: self.found.costs.clone(),
             measure: measured(Measure::of(map)),
             closed: map.is_closed(),
@@ -48,6 +48,12 @@ impl Assembly<'_> {
             },
             difference: None,
         }
+    }
+
+    /// Its probability: that of the search, and that what a log's places rest on does not mislead.
+    fn probability(&self) -> Option<[f64; 2]> {
+        let evidence = self.input.surveyed.as_ref().map_or(1.0, |surveyed| surveyed.evidence().probability);
+        self.found.probability.map(|range| range.map(|probability| probability * evidence))
     }
 
     fn exploration(&self) -> &Exploration {

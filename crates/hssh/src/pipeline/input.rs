@@ -3,11 +3,13 @@
 use std::io::Read;
 
 use hssh_causal::{Exploration, ParseError};
-use hssh_local::{LaserLog, LogError, LogWarning, Survey, SurveyError, SurveyStage, SurveyWarning, survey};
+use hssh_local::{
+    LaserLog, LogError, LogWarning, PerceptionModel, Survey, SurveyError, SurveyStage, SurveyWarning, survey,
+};
 
 use super::error::PipelineError;
 use super::options::MappingOptions;
-use crate::answer::{AnswerWarning, AnsweredInput, InputKind, Spot, WarningKind};
+use crate::answer::{AnswerWarning, AnsweredEvidence, AnsweredInput, InputKind, Spot, WarningKind};
 
 /// What maps are to explain.
 #[derive(Clone, Debug)]
@@ -88,6 +90,7 @@ impl Input {
             explained,
             scans: surveyed.map(SurveyedLog::scans),
             scans_used: surveyed.map(|surveyed| surveyed.log.scans.len() as u64),
+            evidence: surveyed.map(SurveyedLog::evidence),
         }
     }
 }
@@ -131,6 +134,17 @@ impl SurveyedLog {
         broken.map(LogWarning::to_string)
     }
 
+    /// What its places rest on, in numbers.
+    pub(super) fn evidence(&self) -> AnsweredEvidence {
+        let evidence = self.survey.evidence;
+        AnsweredEvidence {
+            returns: evidence.returns as u64,
+            contradicted: evidence.contradicted as u64,
+            unconfirmed: evidence.unconfirmed as u64,
+            probability: evidence.probability(&PerceptionModel::default()),
+        }
+    }
+
     /// The first thing in the log that is missing from what is made of it, in words.
     #[must_use]
     pub fn first_loss(&self) -> Option<String> {
@@ -166,14 +180,11 @@ impl SurveyedLog {
             }
         }
         for warning in &self.survey.warnings {
-            let (kind, spot) = match *warning {
-                SurveyWarning::OffGateways { visit, .. } => {
-                    (WarningKind::OffGateways, Spot::Visit(visit as u64 - 1))
-                }
-                SurveyWarning::Fleeting { scan, .. } => {
-                    (WarningKind::Fleeting, Spot::Scan(self.scan_number(scan - 1)))
-                }
+            let (kind, scan) = match *warning {
+                SurveyWarning::Contradicted { scan, .. } => (WarningKind::ContradictedReturn, scan),
+                SurveyWarning::Unconfirmed { scan, .. } => (WarningKind::UnconfirmedReturn, scan),
             };
+            let spot = Spot::Scan(self.scan_number(scan - 1));
             AnswerWarning::record(&mut warnings, kind, spot, || warning.to_string());
         }
         warnings

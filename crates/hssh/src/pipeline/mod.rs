@@ -106,11 +106,38 @@ fn told(
         });
         let mut map = Assembly { input, found, telling: &telling, graph: graph.as_ref() }.map(rank);
         map.difference = first.as_ref().and_then(|first| searched.difference(first, &telling));
+        if let (1, Some(graph)) = (rank, &graph) {
+            tell_improbable(graph, exploration, warnings);
+        }
         maps.push(map);
         placed.push(PlacedMap { positions: telling.positions.clone(), graph });
         first.get_or_insert(telling);
     }
     (maps, placed)
+}
+
+/// Warns of measured travels that the best map bends by more than their covariances can explain.
+fn tell_improbable(graph: &PoseGraph, exploration: &Exploration, warnings: &mut Vec<AnswerWarning>) {
+    /// Three numbers that err as they should have a larger χ² once in a million times.
+    const IMPROBABLE: f64 = 30.66;
+    let measured = exploration.travels().iter().enumerate().filter(|(_, travel)| travel.odometry.is_some());
+    for ((travel, _), edge) in measured.zip(graph.edges()) {
+        let chi2 = edge.chi2(graph.pose(edge.from), graph.pose(edge.to));
+        if chi2 > IMPROBABLE {
+            let (from, to) = (travel + 1, travel + 2);
+            AnswerWarning::record(
+                warnings,
+                WarningKind::ImprobableTravel,
+                Spot::Visit(travel as u64 + 1),
+                || {
+                    format!(
+                        "the best map bends the travel from visit {from} to visit {to} by χ² = {chi2:.0}, which its \
+                     covariance explains less than once in a million times: a star, a travel or the map is wrong"
+                    )
+                },
+            );
+        }
+    }
 }
 
 /// As many threads as are of use.
@@ -196,12 +223,40 @@ impl Mapped {
     pub fn scan_poses(&self, input: &Input, rank: usize) -> Option<Vec<Pose>> {
         let SurveyedLog { survey, .. } = input.surveyed.as_ref()?;
         let PlacedMap { positions, graph } = self.placed(rank)?;
+        if survey.agrees_with(positions) {
+            let first = survey.visits[0].frame;
+            return Some(survey.track.scans.iter().map(|scan| first.between(scan.pose)).collect());
+        }
         let mut frames = visit_frames(&survey.visits, positions, graph.as_ref()?.poses());
         // Beyond the travels explained, the track goes on.
         for travel in &survey.travels[frames.len() - 1..] {
             frames.push(frames[frames.len() - 1].compose(travel.mean));
         }
         Some(global_poses(survey, &frames))
+    }
+
+    /// Where every laser scan of the log was taken and when, those that cannot be used among them: they have the pose
+    /// of the scan before. In the frame of the first place of a map; if it has no poses, in that of the first scan. The
+    /// time is that of the log, or the number of the scan. `None` without a log.
+    #[must_use]
+    pub fn trajectory(&self, input: &Input, rank: usize) -> Option<Vec<(f64, Pose)>> {
+        let surveyed = input.surveyed.as_ref()?;
+        let tracked = || surveyed.survey.track.scans.iter().map(|scan| scan.pose).collect();
+        let poses = self.scan_poses(input, rank).unwrap_or_else(tracked);
+        let mut trajectory: Vec<(f64, Pose)> = Vec::new();
+        for (used, pose) in poses.iter().enumerate() {
+            let number = surveyed.scan_number(used) as usize;
+            let before = trajectory.last().map_or(*pose, |last| last.1);
+            while trajectory.len() < number {
+                trajectory.push((trajectory.len() as f64, before));
+            }
+            trajectory.push((surveyed.log.scans[used].time.unwrap_or(number as f64), *pose));
+        }
+        let last = trajectory.last().map_or(Pose::IDENTITY, |last| last.1);
+        while (trajectory.len() as u64) < surveyed.scans() {
+            trajectory.push((trajectory.len() as f64, last));
+        }
+        Some(trajectory)
     }
 
     /// The grid map of the whole building, all scans in the frame of the first place of a map.

@@ -1,9 +1,10 @@
 //! The pictures of the best maps and of the search tree, the pose graph of each, and the grid of the building.
 
+use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 
 use hssh::answer::{Answer, AnsweredMap, MapPicture, Objective};
-use hssh::pipeline::{Input, Mapped};
+use hssh::pipeline::{Input, Mapped, PipelineError};
 use hssh_draw::{Bearings, TreeOptions, draw_tree, tree_to_dot};
 use hssh_local::{encode_png, write_map};
 use hssh_metrics::GraphFile;
@@ -17,15 +18,15 @@ use crate::output::{
 
 /// Whether any picture or file is asked for.
 pub(super) fn is_asked(arguments: &MapArguments) -> bool {
-    let MapArguments { svg, dot, tree, g2o, grid, debug_dir, .. } = arguments;
-    [svg, dot, tree, g2o, grid, debug_dir].iter().any(|file| file.is_some())
+    let MapArguments { svg, dot, tree, g2o, grid, trajectory, debug_dir, .. } = arguments;
+    [svg, dot, tree, g2o, grid, trajectory, debug_dir].iter().any(|file| file.is_some())
 }
 
 /// Refuses outputs that cannot be written, before anything is searched.
 pub(super) fn check(arguments: &MapArguments) -> Result<(), Failure> {
-    let MapArguments { svg, dot, tree, g2o, grid, certificate, .. } = arguments;
+    let MapArguments { svg, dot, tree, g2o, grid, trajectory, certificate, .. } = arguments;
     let grid_image = grid.as_deref().filter(|grid| is_yaml(grid)).map(|grid| grid.with_extension("pgm"));
-    let outputs = [svg, dot, tree, g2o, grid, certificate, &grid_image].map(Option::as_ref);
+    let outputs = [svg, dot, tree, g2o, grid, trajectory, certificate, &grid_image].map(Option::as_ref);
     check_outputs(&[&arguments.file], outputs)?;
     check_folder(arguments.debug_dir.as_ref())
 }
@@ -40,20 +41,29 @@ pub(super) fn draw(
     if let Some(file) = &arguments.tree {
         written.note(draw_search(file, input, mapped));
     }
-    let best: Vec<&AnsweredMap> = mapped.answer.maps.iter().filter(|map| map.tied).collect();
+    let is_asked = |map: &&AnsweredMap| arguments.rank.map_or(map.tied, |rank| map.rank == u64::from(rank));
+    let best: Vec<&AnsweredMap> = mapped.answer.maps.iter().filter(is_asked).collect();
+    if let (Some(rank), []) = (arguments.rank, &best[..]) {
+        let found = mapped.answer.maps.len();
+        return Err(PipelineError::NoSuchRank { asked: rank as usize, found }.into());
+    }
+    if let (Some(file), []) = (&arguments.trajectory, &best[..]) {
+        written.note(write_trajectory(file, input, mapped, 1));
+    }
     for (index, map) in best.iter().enumerate() {
-        let MapArguments { svg, dot, g2o, grid, debug_dir, .. } = arguments;
+        let MapArguments { svg, dot, g2o, grid, trajectory, debug_dir, .. } = arguments;
         let [map_stage, building_stage] =
             [map_file, building_file].map(|stage| debug_dir.as_deref().map(stage));
-        let files = [svg, &map_stage, dot, g2o, grid, &building_stage];
+        let files = [svg, &map_stage, dot, g2o, grid, trajectory, &building_stage];
         if files.iter().all(|file| file.is_none()) {
             break;
         }
-        let [svg, map_stage, dot, g2o, grid, building_stage] =
+        let [svg, map_stage, dot, g2o, grid, trajectory, building_stage] =
             files.map(|file| numbered(file.as_deref(), index));
         let title = title(&arguments.file, index, best.len(), kind(&mapped.answer));
         let picture = MapPicture::new(map, Some(title))?;
-        for file in [svg.as_ref(), dot.as_ref(), g2o.as_ref(), grid.as_ref()].into_iter().flatten() {
+        let outputs = [&svg, &dot, &g2o, &grid, &trajectory];
+        for file in outputs.into_iter().flatten() {
             refuse_input(&arguments.file, file)?;
         }
         for file in [svg, map_stage].into_iter().flatten() {
@@ -62,7 +72,10 @@ pub(super) fn draw(
         if let Some(file) = dot {
             written.note(write_file(&file, &picture.to_dot()));
         }
-        let rank = index + 1;
+        let rank = map.rank as usize;
+        if let Some(file) = trajectory {
+            written.note(write_trajectory(&file, input, mapped, rank));
+        }
         let graph = mapped.pose_graph(rank);
         for file in [grid, building_stage].into_iter().flatten().filter(|_| graph.is_some()) {
             written.note(write_building(&file, input, mapped, rank));
@@ -95,6 +108,17 @@ fn write_building(file: &Path, input: &Input, mapped: &Mapped, rank: usize) -> R
     } else {
         write_bytes(file, &encode_png(&grid))
     }
+}
+
+/// Writes where every scan was taken, one line each.
+fn write_trajectory(file: &Path, input: &Input, mapped: &Mapped, rank: usize) -> Result<(), Failure> {
+    let trajectory = mapped.trajectory(input, rank).ok_or(PipelineError::NoScans)?;
+    let mut text = String::new();
+    for (time, pose) in trajectory {
+        let (sin, cos) = (pose.theta / 2.0).sin_cos();
+        let _ = writeln!(text, "{time} {:.6} {:.6} 0 0 0 {sin:.9} {cos:.9}", pose.x, pose.y);
+    }
+    write_file(file, &text)
 }
 
 fn is_yaml(file: &Path) -> bool {

@@ -57,9 +57,12 @@ pub(crate) fn searched(input: &Input, options: &MappingOptions) -> Result<Mapped
 }
 
 fn refuse_what_needs_a_log(arguments: &MapArguments) -> Result<(), Failure> {
-    let is_asked = arguments.grid.is_some() || arguments.likeness.is_some() || arguments.debug_dir.is_some();
+    let is_asked = arguments.grid.is_some()
+        || arguments.trajectory.is_some()
+        || arguments.likeness.is_some()
+        || arguments.debug_dir.is_some();
     if is_asked || !arguments.places.choice().is_usual() {
-        let help = "--grid, --likeness, --debug-dir and what counts as a place need a laser log: an exploration has no scans";
+        let help = "--grid, --trajectory, --likeness, --debug-dir and what counts as a place need a laser log: an exploration has no scans";
         return Err(Failure::Usage(help.to_owned()));
     }
     Ok(())
