@@ -194,7 +194,7 @@ impl<'a> Closing<'a> {
                 let same = self.tentative[before].iter().filter(|other| agree(other, found, travel, pose));
                 chain.extend(same.max_by(|a, b| a.score.total_cmp(&b.score)));
             }
-            if chain.len() >= self.options.least_chain {
+            if self.is_convincing(&chain) {
                 added.extend(chain);
             }
         }
@@ -223,6 +223,13 @@ impl<'a> Closing<'a> {
             self.graph.set_poses(solution.poses)?;
         }
         Ok(())
+    }
+
+    /// Whether matches that tell the same are no chance: many, or strong, or where they were expected.
+    fn is_convincing(&self, chain: &[Match]) -> bool {
+        let score = chain.iter().map(|found| found.score).sum::<f64>() / chain.len() as f64;
+        let is_strong = score >= self.options.strong_score || chain.iter().all(|found| found.is_expected);
+        chain.len() + usize::from(is_strong) >= self.options.least_chain
     }
 
     /// The poses that a submap may have in the frame of an earlier one.

@@ -28,6 +28,8 @@ pub(super) struct Match {
     pub(super) overlap: f64,
     /// Whether nothing else in the window fits nearly as well.
     pub(super) is_clear: bool,
+    /// Whether the window was so small that there was nothing else to find.
+    pub(super) is_expected: bool,
 }
 
 /// Looks for a submap in an earlier one. `None` if it does not lie in the window.
@@ -43,7 +45,8 @@ pub(super) fn find(
     let step = (other.walls.len() / 300).max(1);
     let walls: Vec<Vector2<f64>> = other.walls.iter().step_by(step).copied().collect();
     let best = search(&one.field, &walls, window, options.least_score, None)?;
-    let is_clear = window.across <= SMALL
+    let is_expected = window.across <= SMALL;
+    let is_clear = is_expected
         || search(&one.field, &walls, window, options.ambiguity * best.score, Some((best.pose, APART)))
             .is_none();
     let prior = UncertainPose {
@@ -59,7 +62,7 @@ pub(super) fn find(
     let floor = Vector3::new(options.floor.0, options.floor.0, options.floor.1).map(|sigma| sigma * sigma);
     let covariance = Covariance::new(fine.covariance.matrix() + Matrix3::from_diagonal(&floor)).ok()?;
     let relative = UncertainPose { mean: fine.mean, covariance };
-    Some(Match { query, reference, relative, score: best.score, agreement, overlap, is_clear })
+    Some(Match { query, reference, relative, score: best.score, agreement, overlap, is_clear, is_expected })
 }
 
 /// Of the walls of each submap that lie where the other one has seen something, which part the other one has

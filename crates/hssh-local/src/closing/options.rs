@@ -29,8 +29,11 @@ pub struct ClosingOptions {
     pub least_overlap: f64,
     /// A match is ambiguous if another one, elsewhere in the window, has this share of its score.
     pub ambiguity: f64,
-    /// So many matches in a row have to tell the same.
+    /// So many matches in a row have to tell the same; one less, if they are where they were expected or their mean
+    /// likeness is at least `strong_score`.
     pub least_chain: usize,
+    /// See `least_chain`.
+    pub strong_score: f64,
     /// However good a match is, a closure is not known better than this: metres and radians, standard deviations.
     pub floor: (f64, f64),
 }
@@ -52,6 +55,7 @@ impl Default for ClosingOptions {
             least_overlap: 6.0,
             ambiguity: 0.85,
             least_chain: 3,
+            strong_score: 0.6,
             floor: (0.04, 0.006),
         }
     }
