@@ -11,6 +11,9 @@ use super::options::MatchOptions;
 use crate::carmen::LaserLog;
 use crate::scan::Scan;
 
+/// A search this wide, in metres, is made with a part of the surfaces.
+const WIDE: f64 = 0.5;
+
 /// Where a scan was taken.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct TrackedScan {
@@ -153,7 +156,11 @@ fn fitted(
         covariance: odometry.covariance.rotated(from.theta),
     };
     let weight = 1.0 / options.hits_per_observation;
-    let start = search(&reference.field, seen, &predicted, options.search_sigmas, weight);
+    // The wider the search, the fewer surfaces it takes to tell poses apart.
+    let spread = predicted.covariance.matrix().diagonal().xy().map(f64::sqrt).max() * options.search_sigmas;
+    let step = if spread > WIDE { 3 } else { 1 };
+    let few: Vec<SurfacePoint> = seen.iter().step_by(step).copied().collect();
+    let start = search(&reference.field, &few, &predicted, options.search_sigmas, weight * step as f64);
     let fine = align(&reference.cloud, seen, start, &predicted, options);
     UncertainPose { mean: from.between(fine.mean), covariance: fine.covariance.rotated(-from.theta) }
 }
