@@ -20,6 +20,8 @@ pub(super) struct WaysOut {
     pub(super) center: Vector2<f64>,
     pub(super) gateways: Vec<Gateway>,
     pub(super) travelled: Vec<WayEnd>,
+    /// Whether it looks like a place, whatever was travelled.
+    pub(super) is_sighted: bool,
 }
 
 /// Puts spots on ways where places are seen along them: where a way that nobody went leads on, or it turns.
@@ -100,6 +102,7 @@ pub(super) fn ways_out(
     let center = network.spots[spot].center;
     let seen = look_at(building, center, window, place)
         .filter(|sighting| (sighting.center - center).norm() <= options.same_place + sighting.clearance);
+    let is_sighted = seen.as_ref().is_some_and(|sighting| sighting.is_place);
     let mut seen: Vec<Gateway> = seen.map(|sighting| sighting.gateways).unwrap_or_default();
     let mut gateways = Vec::new();
     for arm in &network.spots[spot].arms {
@@ -125,5 +128,5 @@ pub(super) fn ways_out(
     }
     let travelled = network.spots[spot].arms.clone();
     gateways.extend(seen);
-    WaysOut { center, gateways, travelled }
+    WaysOut { center, gateways, travelled, is_sighted }
 }

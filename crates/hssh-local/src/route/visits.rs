@@ -106,18 +106,20 @@ fn without_passages(stays: Vec<Stay>, is_passage: &[bool]) -> Vec<Stay> {
     kept
 }
 
-/// The stays without the spots where the log just begins or ends: nothing there was seen to be a place.
+/// The stays without the spots where the log just begins or ends, if nothing there looks like a place. If there is
+/// nothing else, they are the two ends of one way.
 fn between_places(mut stays: Vec<Stay>, network: &Network, out: &[WaysOut]) -> Vec<Stay> {
     let is_open_end = |stay: &Stay, stays: &[Stay]| {
-        let spot = &network.spots[stay.spot];
         let visits = stays.iter().filter(|other| other.spot == stay.spot).count();
-        spot.arms.len() <= 1 && visits == 1 && out[stay.spot].gateways.len() <= 2
+        network.spots[stay.spot].arms.len() <= 1 && visits == 1 && !out[stay.spot].is_sighted
     };
-    if stays.len() > 1 && is_open_end(&stays[0], &stays) {
-        stays.remove(0);
-    }
-    if stays.len() > 1 && is_open_end(&stays[stays.len() - 1], &stays) {
-        stays.pop();
+    if !stays.iter().all(|stay| is_open_end(stay, &stays)) {
+        if is_open_end(&stays[0], &stays) {
+            stays.remove(0);
+        }
+        if is_open_end(&stays[stays.len() - 1], &stays) {
+            stays.pop();
+        }
     }
     if let Some(last) = stays.last_mut() {
         last.left = None;

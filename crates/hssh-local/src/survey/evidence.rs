@@ -10,11 +10,11 @@ const ONE_RETURN: f64 = 15.0;
 /// Where two poses are this near, one would expect the scans to match: metres.
 const NEAR: f64 = 1.5;
 /// A return is confirmed by closures no farther away than this on either pass: metres of travel.
-const CONFIRMING: f64 = 8.0;
+pub(super) const CONFIRMING: f64 = 8.0;
 /// The robot is not back where it was less than so many metres of travel ago.
 const LEAST_TRAVEL: f64 = 15.0;
 /// A closure that counts less than this in the end is contradicted.
-const BELIEVED: f64 = 0.5;
+pub(super) const BELIEVED: f64 = 0.5;
 /// Metres of travel between the scans that are asked whether the robot is back.
 const STEP: f64 = 1.0;
 

@@ -2,6 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
+use super::input::AnsweredEvidence;
 use super::map::MapMeasure;
 
 /// How good a map is: what decides its rank.
@@ -68,6 +69,18 @@ pub struct CertificateSummary {
 }
 
 impl CertificateSummary {
+    /// Says what the stars and travels of a log rest on.
+    pub(crate) fn trust_survey(&mut self, evidence: &AnsweredEvidence) {
+        for trusted in self.trusted.iter_mut().filter(|trusted| trusted.assumption == Assumption::Perception)
+        {
+            trusted.sentence = format!(
+                "the robot was back where the laser shows it ({} times, {} more seem so and were not confirmed, {} are \
+                 contradicted by the rest), and places are where its ways part, turn back, or where one was sighted",
+                evidence.returns, evidence.unconfirmed, evidence.contradicted
+            );
+        }
+    }
+
     /// Why nothing is proved, if it is for something that was relied on; a sentence without its beginning.
     pub(super) fn objection(&self) -> Option<&'static str> {
         let failed = self.trusted.iter().find(|trusted| !trusted.held)?;

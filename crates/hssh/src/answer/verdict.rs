@@ -80,7 +80,12 @@ impl Verdict {
             ),
             _ => found(search, certificate, kind, what),
         };
-        let sentence = if is_partial { basis + &body } else { capitalized(&body) };
+        let mut sentence = if is_partial { basis + &body } else { capitalized(&body) };
+        if let (VerdictKind::OneBest | VerdictKind::SeveralBest, Some(evidence)) = (kind, &input.evidence) {
+            // A proof speaks of the model: what a survey saw is taken as given.
+            let returns = counted(evidence.returns as usize, "return");
+            sentence += &format!(" Given that the robot was back where the laser shows it: {returns}.");
+        }
         Verdict { kind, sentence, lost_at_travel }
     }
 }

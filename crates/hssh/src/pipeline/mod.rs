@@ -21,7 +21,9 @@ use std::thread::available_parallelism;
 
 use hssh_causal::Exploration;
 use hssh_draw::SearchTree;
-use hssh_local::{LocalMapOptions, OccupancyGrid, global_map, global_poses, resemblance, visit_frames};
+use hssh_local::{
+    LocalMapOptions, OccupancyGrid, PerceptionModel, global_map, global_poses, resemblance, visit_frames,
+};
 use hssh_metrics::{Pose, PoseGraph};
 use hssh_topology::{Isomorphism, Position};
 
@@ -66,20 +68,23 @@ pub fn map(input: &Input, options: &MappingOptions, monitor: &Arc<Monitor>) -> R
     }
     options.search.threads = useful_threads(options.search.threads, &mut warnings);
     let method = options.method_for(&exploration)?;
-    let likeness = input.surveyed.as_ref().filter(|_| options.posterior.likeness != 0.0);
-    let likeness = likeness.map(|surveyed| surveyed.likeness(options.posterior.likeness));
+    let likeness = input.surveyed.as_ref().map(|surveyed| surveyed.likeness(options.posterior.likeness));
     let task = Task { exploration: &exploration, options: &options, method, likeness, monitor };
     let searched = task.search()?;
 
     let (maps, placed) = told(input, &searched, &exploration, &mut warnings);
     let account = input.account(considered, searched.explained as u64);
+    let mut certificate = searched.certificate.clone();
+    if let Some(evidence) = &account.evidence {
+        certificate.trust_survey(evidence);
+    }
     let answer = Answer {
         format: Answer::FORMAT.to_owned(),
         version: Answer::VERSION,
-        verdict: Verdict::of(&account, &searched.summary, &searched.certificate),
+        verdict: Verdict::of(&account, &searched.summary, &certificate),
         input: account,
         search: searched.summary.clone(),
-        certificate: searched.certificate.clone(),
+        certificate,
         visits: records(input, considered, maps.first()),
         maps,
         warnings,
@@ -180,16 +185,25 @@ impl MappingOptions {
 }
 
 impl SurveyedLog {
-    /// How much alike the local maps of all pairs of visits are, times a weight (section 2.4).
+    /// What the laser says of visits: where it shows that the robot was back, another place is improbable; and how much alike
+    /// the local maps of all pairs of visits are, times a weight (section 2.4).
     fn likeness(&self, weight: f64) -> Likeness {
         let visits = &self.survey.visits;
         let degrees: Vec<u32> = visits.iter().map(|visit| visit.star.star.degree()).collect();
+        let is_return: Vec<bool> = (0..visits.len()).map(|visit| self.survey.shows_return(visit)).collect();
+        let shown = -PerceptionModel::default().wrong_return.ln();
         Likeness::new(&degrees, |later, earlier, rotation| {
             let (first, second) = (&visits[earlier], &visits[later]);
+            // Visits to one spot show one star, turned as the track is.
+            let is_shown = is_return[later] && first.spot == second.spot && rotation == 0;
+            let returned = if is_shown { shown } else { 0.0 };
+            if weight == 0.0 {
+                return returned;
+            }
             let mut isomorphisms = Isomorphism::all(&second.star.star, &first.star.star);
             let phi = isomorphisms.find(|phi| phi.rotation() == rotation);
             let found = phi.and_then(|phi| resemblance(first, second, phi));
-            found.map_or(0.0, |found| weight * found.log_likelihood_ratio)
+            returned + found.map_or(0.0, |found| weight * found.log_likelihood_ratio)
         })
     }
 }
