@@ -7,10 +7,10 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use hssh::answer::{
-    Answer, AnswerError, AnswerWarning, AnsweredMap, AnsweredVisit, Assumption, CostItem, CostSheet,
-    EndReference, EndState, Explanation, Finding, FoundCounts, InputKind, MapDifference, Objective,
-    PartingVisit, PlacedPose, SearchOrder, Spot, StopReason, TestTravels, Verdict, VerdictKind, VisitRecord,
-    WarningKind, Worth,
+    Answer, AnswerError, AnswerWarning, AnsweredEvidence, AnsweredMap, AnsweredVisit, Assumption, CostItem,
+    CostSheet, EndReference, EndState, Explanation, Finding, FoundCounts, InputKind, MapDifference,
+    Objective, PartingVisit, PlacedPose, SearchOrder, Spot, StopReason, TestTravels, Verdict, VerdictKind,
+    VisitRecord, WarningKind, Worth,
 };
 use hssh::causal::Exploration;
 use hssh::pipeline::{Input, Mapped, MappingOptions, Monitor, SearchMethod, map};
@@ -49,6 +49,8 @@ fn full() -> Answer {
     let pose = PlacedPose { x: 0.1, y: 1.0 / 3.0, theta: -1e-17, covariance: Some([[0.1; 3]; 3]) };
     answer.input.scans = Some(3);
     answer.input.scans_used = Some(2);
+    answer.input.evidence =
+        Some(AnsweredEvidence { returns: 3, contradicted: 1, unconfirmed: 2, probability: 0.875 });
     answer.search.found =
         FoundCounts { nearly_closed: Some(1), perpendicular: Some(1), ..answer.search.found };
     answer.search.removals = Some(hssh::topology::Removals::default());
@@ -158,8 +160,9 @@ fn every_word_is_documented() {
     documented(words([
         WarningKind::MessageLeftOut,
         WarningKind::BreaksOff,
-        WarningKind::OffGateways,
-        WarningKind::Fleeting,
+        WarningKind::ContradictedReturn,
+        WarningKind::UnconfirmedReturn,
+        WarningKind::ImprobableTravel,
         WarningKind::NoPoses,
         WarningKind::FewerThreads,
     ]));

@@ -111,7 +111,8 @@ fn told(
         });
         let mut map = Assembly { input, found, telling: &telling, graph: graph.as_ref() }.map(rank);
         map.difference = first.as_ref().and_then(|first| searched.difference(first, &telling));
-        if let (1, Some(graph)) = (rank, &graph) {
+        // Of several maps that are equally good, the first is not the one to be judged.
+        if let (1, Some(graph), 1) = (rank, &graph, searched.summary.found.tied) {
             tell_improbable(graph, exploration, warnings);
         }
         maps.push(map);
