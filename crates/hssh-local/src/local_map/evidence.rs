@@ -77,6 +77,7 @@ impl LocalMap {
                 self.add(cell, self.options.hit);
             }
         }
+        self.spare_surfaces(pose, scan);
         for beam in beams {
             for (direction, range) in sweep(scan, beam, reach, self.lattice.resolution()) {
                 let end = pose.translation() + rotation * direction * range;
@@ -84,6 +85,33 @@ impl LocalMap {
                     self.add(cell, -self.options.miss);
                 }
             }
+        }
+    }
+
+    /// What lies between the hits of two neighboring beams may be one surface: beams that graze it go through cells beside
+    /// it, and through its own where it lies at their border, and must not clear them.
+    fn spare_surfaces(&mut self, pose: Pose, scan: &Scan) {
+        /// Hits farther apart than this, in metres, are on two surfaces.
+        const ONE_SURFACE: f64 = 3.0;
+        let rotation = pose.rotation();
+        let hit = |beam: usize| {
+            let range = scan.ranges[beam];
+            (range < self.options.reach).then(|| pose.translation() + rotation * scan.direction(beam) * range)
+        };
+        let mut spared: Vec<Cell> = Vec::new();
+        for beam in 1..scan.ranges.len() {
+            let (Some(one), Some(other)) = (hit(beam - 1), hit(beam)) else { continue };
+            let ends = [one, other].map(|point| self.lattice.cell_at([point.x, point.y]));
+            if let ([Some(from), Some(to)], true) = (ends, (one - other).norm() < ONE_SURFACE) {
+                for cell in self.lattice.line(from, to) {
+                    spared.push(cell);
+                    spared.extend(self.lattice.side_neighbors(cell));
+                }
+            }
+        }
+        for cell in spared {
+            let index = self.lattice.index(cell);
+            self.last_scan[index] = self.scans;
         }
     }
 
