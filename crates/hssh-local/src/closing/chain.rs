@@ -1,6 +1,6 @@
 //! Chains of matches: one match may be chance, several in a row that tell the same are not.
 
-use hssh_metrics::Pose;
+use hssh_metrics::{Pose, wrap_angle};
 
 use super::matching::Match;
 
@@ -16,6 +16,14 @@ pub(super) fn told(found: &Match, pose: impl Fn(usize) -> Pose) -> Pose {
 /// Whether two matches of submaps `travel` metres apart tell the same.
 pub(super) fn agree(one: &Match, other: &Match, travel: f64, pose: impl Fn(usize) -> Pose) -> bool {
     let between = pose(one.query).between(pose(other.query));
-    let off = told(one, &pose).compose(between).between(told(other, &pose));
-    off.translation().norm() < CONSISTENT.0 + CONSISTENT.1 * travel.abs() && off.theta.abs() < CONSISTENT.2
+    let (expected, found) = (told(one, &pose).compose(between), told(other, &pose));
+    // What may be slid along a corridor says nothing about how far along it the robot is.
+    let mut apart = found.translation() - expected.translation();
+    for one in [one, other] {
+        if let Some(axis) = one.slide.map(|axis| pose(one.reference).rotation() * axis) {
+            apart -= axis * axis.dot(&apart);
+        }
+    }
+    let turned = wrap_angle(found.theta - expected.theta);
+    apart.norm() < CONSISTENT.0 + CONSISTENT.1 * travel.abs() && turned.abs() < CONSISTENT.2
 }

@@ -1,16 +1,22 @@
 //! Whether two submaps show one place, and how they lie on one another.
 
 use hssh_metrics::{Covariance, Pose, UncertainPose};
-use nalgebra::{Matrix3, Vector2, Vector3};
+use nalgebra::{Matrix2, Matrix3, Vector2, Vector3};
 
 use super::keyframe::Keyframe;
 use super::options::ClosingOptions;
 use super::search::{Window, search};
 use super::submap::{CELL, Submap};
-use crate::matching::{MatchOptions, align};
+use crate::matching::{Cloud, MatchOptions, SurfacePoint, align};
 
 /// Two matches nearer than this to one another are one, in metres.
 const APART: f64 = 1.0;
+/// How far one submap can be slid on another along a corridor, in metres, standard deviation.
+const SLIDE: f64 = 5.0;
+/// A hit is on a wall if it is no farther off, in metres…
+const ON_WALL: f64 = 0.2;
+/// …and faces the same way, up to 25°.
+const FACING: f64 = 0.9;
 /// A window so small leaves no room for another match: metres.
 const SMALL: f64 = 1.2;
 
@@ -23,6 +29,9 @@ pub(super) struct Match {
     pub(super) reference: usize,
     /// The later one's middle in the frame of the earlier one's.
     pub(super) relative: UncertainPose,
+    /// The direction in the earlier one's frame, of length 1, along which all walls lead, if there is one: how far the robot is
+    /// along it the match does not tell.
+    pub(super) slide: Option<Vector2<f64>>,
     pub(super) score: f64,
     pub(super) agreement: f64,
     pub(super) overlap: f64,
@@ -51,18 +60,65 @@ pub(super) fn find(
             .is_none();
     let prior = UncertainPose {
         mean: best.pose,
-        covariance: Covariance::from_standard_deviations(0.5, 0.5, 0.1).expect("positive"),
+        covariance: Covariance::from_standard_deviations(5.0, 5.0, 0.5).expect("positive"),
     };
     let matching = MatchOptions { floor: (0.0, 0.0), hits_per_observation: 20.0, ..MatchOptions::default() };
-    let fine = align(&one.cloud(keyframes), &other.surfaces(keyframes), best.pose, &prior, &matching);
+    let (cloud, surfaces) = (one.cloud(keyframes), other.surfaces(keyframes));
+    let fine = align(&cloud, &surfaces, best.pose, &prior, &matching);
     if (fine.mean.translation() - best.pose.translation()).norm() > 0.4 {
         return None;
     }
     let (agreement, overlap) = agreement(one, other, fine.mean);
+    let slide = slide(&cloud, &surfaces, fine.mean, options.least_crossing);
+    if slide.is_some() && !is_expected {
+        return None;
+    }
     let floor = Vector3::new(options.floor.0, options.floor.0, options.floor.1).map(|sigma| sigma * sigma);
-    let covariance = Covariance::new(fine.covariance.matrix() + Matrix3::from_diagonal(&floor)).ok()?;
+    let along = slide.map_or(Matrix3::zeros(), |axis| {
+        let axis = SLIDE * Vector3::new(axis.x, axis.y, 0.0);
+        axis * axis.transpose()
+    });
+    let covariance =
+        Covariance::new(fine.covariance.matrix() + Matrix3::from_diagonal(&floor) + along).ok()?;
     let relative = UncertainPose { mean: fine.mean, covariance };
-    Some(Match { query, reference, relative, score: best.score, agreement, overlap, is_clear, is_expected })
+    Some(Match {
+        query,
+        reference,
+        relative,
+        slide,
+        score: best.score,
+        agreement,
+        overlap,
+        is_clear,
+        is_expected,
+    })
+}
+
+/// The direction along which all walls that both submaps have lead, so that one can be slid on the other: less than the part
+/// `least_crossing` of them crosses it.
+fn slide(
+    cloud: &Cloud,
+    surfaces: &[SurfacePoint],
+    placed: Pose,
+    least_crossing: f64,
+) -> Option<Vector2<f64>> {
+    let (rotation, origin) = (placed.rotation(), placed.translation());
+    let mut scatter = Matrix2::zeros();
+    for surface in surfaces {
+        let hit = origin + rotation * surface.position;
+        let Some(own) = surface.normal.map(|normal| rotation * normal) else { continue };
+        let nearest = cloud.nearest(hit, ON_WALL).and_then(|point| point.normal);
+        if nearest.is_some_and(|normal| normal.dot(&own).abs() > FACING) {
+            scatter += own * own.transpose();
+        }
+    }
+    let eigen = scatter.symmetric_eigen();
+    let (least, axis) = if eigen.eigenvalues.x < eigen.eigenvalues.y {
+        (eigen.eigenvalues.x, 0)
+    } else {
+        (eigen.eigenvalues.y, 1)
+    };
+    (least < least_crossing * scatter.trace()).then(|| eigen.eigenvectors.column(axis).into_owned())
 }
 
 /// Of the walls of each submap that lie where the other one has seen something, which part the other one has

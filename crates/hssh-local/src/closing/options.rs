@@ -27,6 +27,9 @@ pub struct ClosingOptions {
     pub least_agreement: f64,
     /// So many metres of wall have to be seen by both.
     pub least_overlap: f64,
+    /// Of the walls that both have, this part at least has to cross those that lead along the others: else one can be slid on
+    /// the other.
+    pub least_crossing: f64,
     /// A match is ambiguous if another one, elsewhere in the window, has this share of its score.
     pub ambiguity: f64,
     /// So many matches in a row have to tell the same; one less, if they are where they were expected or their mean
@@ -53,6 +56,7 @@ impl Default for ClosingOptions {
             least_score: 0.4,
             least_agreement: 0.75,
             least_overlap: 6.0,
+            least_crossing: 0.08,
             ambiguity: 0.85,
             least_chain: 3,
             strong_score: 0.6,

@@ -9,8 +9,17 @@ use crate::scan::Scan;
 
 /// Hits of neighboring beams farther apart than this, in metres, are on different surfaces…
 const GAP: f64 = 0.35;
-/// …as are those farther apart than this many times the hit's range: far beams are far apart.
+/// …as are those farther apart than this many times the hit's range: far beams are far apart…
 const GAP_PER_RANGE: f64 = 0.06;
+/// …unless they lie on one line, as those of beams that graze a wall do: up to so many times the range.
+const GRAZING_GAP_PER_RANGE: f64 = 0.3;
+/// Hits are on one line if they are no farther off than this, in metres, root mean square.
+const STRAIGHT: f64 = 0.03;
+/// Between hits on one line, a wall is taken to be there every so many metres, if they are no farther apart than the second
+/// number.
+const FILLING: (f64, f64) = (0.2, 4.0);
+/// Directions of surfaces differ by less than about 10° along a wall.
+const PARALLEL: f64 = 0.985;
 /// Side of a bucket in metres: also how far [`Cloud::nearest`] looks at least.
 const BUCKET: f64 = 0.5;
 
@@ -26,23 +35,39 @@ pub(crate) struct SurfacePoint {
 pub(crate) fn surfaces(scan: &Scan, reach: f64, spacing: f64) -> Vec<SurfacePoint> {
     let hits: Vec<(usize, Vector2<f64>)> = scan.hits(reach).collect();
     let mut points: Vec<SurfacePoint> = Vec::new();
-    for (index, &(beam, position)) in hits.iter().enumerate() {
+    for (index, &(_, position)) in hits.iter().enumerate() {
         if points.last().is_some_and(|last| (last.position - position).norm() < spacing) {
             continue;
         }
-        let gap = GAP.max(GAP_PER_RANGE * position.norm());
-        let near = |&(other, point): &(usize, Vector2<f64>)| {
-            other.abs_diff(beam) <= 12 && (point - position).norm() < gap
-        };
-        let window = &hits[index.saturating_sub(12)..hits.len().min(index + 13)];
-        let neighbors: Vec<Vector2<f64>> = window.iter().filter(|hit| near(hit)).map(|hit| hit.1).collect();
-        points.push(SurfacePoint { position, normal: normal(&neighbors) });
+        let range = position.norm();
+        let near = neighbors(&hits, index, GAP.max(GAP_PER_RANGE * range));
+        let normal = normal(&near, f64::INFINITY)
+            .or_else(|| normal(&neighbors(&hits, index, GRAZING_GAP_PER_RANGE * range), STRAIGHT));
+        points.push(SurfacePoint { position, normal });
     }
     points
 }
 
-/// The direction across the line through points, if they lie on a line.
-fn normal(points: &[Vector2<f64>]) -> Option<Vector2<f64>> {
+/// The hits next to one on either side, up to a gap.
+fn neighbors(hits: &[(usize, Vector2<f64>)], index: usize, gap: f64) -> Vec<Vector2<f64>> {
+    const MOST: usize = 6;
+    let follows = |one: usize, other: usize| {
+        let ((beam, position), (next, point)) = (hits[one], hits[other]);
+        beam.abs_diff(next) <= 2 && (point - position).norm() < gap
+    };
+    let mut first = index;
+    while first > index.saturating_sub(MOST) && follows(first, first - 1) {
+        first -= 1;
+    }
+    let mut last = index;
+    while last < (index + MOST).min(hits.len() - 1) && follows(last, last + 1) {
+        last += 1;
+    }
+    hits[first..=last].iter().map(|hit| hit.1).collect()
+}
+
+/// The direction across the line through points, if they lie on a line, off by `straight` metres at most.
+fn normal(points: &[Vector2<f64>], straight: f64) -> Option<Vector2<f64>> {
     if points.len() < 4 {
         return None;
     }
@@ -56,7 +81,29 @@ fn normal(points: &[Vector2<f64>]) -> Option<Vector2<f64>> {
     let (sin, cos) = along.sin_cos();
     let spread_along = xx * cos * cos + 2.0 * xy * sin * cos + yy * sin * sin;
     let spread_across = xx + yy - spread_along;
-    (spread_across < 0.1 * spread_along).then(|| vector![-sin, cos])
+    let is_line =
+        spread_across < 0.1 * spread_along && spread_across <= straight * straight * points.len() as f64;
+    is_line.then(|| vector![-sin, cos])
+}
+
+/// What lies between neighboring surface points on one straight wall, so that beams that graze it leave no gaps.
+pub(crate) fn filled(surfaces: &[SurfacePoint]) -> Vec<SurfacePoint> {
+    let mut all = surfaces.to_vec();
+    for pair in surfaces.windows(2) {
+        let (Some(one), Some(other)) = (pair[0].normal, pair[1].normal) else { continue };
+        let way = pair[1].position - pair[0].position;
+        let length = way.norm();
+        let is_wall = one.dot(&other).abs() > PARALLEL
+            && one.dot(&way).abs().max(other.dot(&way).abs()) < 2.0 * STRAIGHT;
+        if is_wall && length < FILLING.1 {
+            let steps = (length / FILLING.0).floor() as usize;
+            all.extend((1..steps).map(|step| SurfacePoint {
+                position: pair[0].position + way * (step as f64 / steps as f64),
+                normal: Some(one),
+            }));
+        }
+    }
+    all
 }
 
 /// Surface points in one frame, in buckets.

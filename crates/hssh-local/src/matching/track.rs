@@ -5,7 +5,7 @@ use std::collections::VecDeque;
 use hssh_metrics::{Pose, UncertainPose, UncertaintyError};
 
 use super::align::align;
-use super::cloud::{Cloud, SurfacePoint, surfaces};
+use super::cloud::{Cloud, SurfacePoint, filled, surfaces};
 use super::correlate::{LikelihoodField, search};
 use super::options::MatchOptions;
 use crate::carmen::LaserLog;
@@ -104,7 +104,7 @@ impl Tracker {
         };
         if self.keyframes.back().is_none_or(|last| is_new_view(last, &tracked, &self.options)) {
             let TrackedScan { pose, travelled, .. } = tracked;
-            self.keyframes.push_back(Keyframe { pose, travelled, surfaces: seen });
+            self.keyframes.push_back(Keyframe { pose, travelled, surfaces: filled(&seen) });
             self.keyframes.retain(|keyframe| travelled - keyframe.travelled <= self.options.memory);
             self.reference = Reference::new(self.keyframes.iter().rev(), pose, &self.options);
         }
