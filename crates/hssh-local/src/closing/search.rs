@@ -11,7 +11,7 @@ use super::submap::CELL;
 const TURN: f64 = 0.02;
 
 /// The poses that are tried: around a pose, so many metres and radians to each side.
-#[derive(Clone, Copy)]
+#[derive(Clone, Copy, Debug)]
 pub(super) struct Window {
     pub(super) center: Pose,
     pub(super) across: f64,
@@ -96,17 +96,122 @@ pub(super) fn search(
         }
         let level = block.level - 1;
         let half = 1 << level;
-        let mut children = [(0, 0), (half, 0), (0, half), (half, half)].map(|(column, row)| {
-            let shift = (block.shift.0 + column, block.shift.1 + row);
-            Block {
-                heading: block.heading,
-                shift,
-                level,
-                bound: field.score(&cells[block.heading], shift, level),
-            }
-        });
+        let corners = [(0, 0), (half, 0), (0, half), (half, half)]
+            .map(|(column, row)| (block.shift.0 + column, block.shift.1 + row));
+        // What lies beyond the window is none of the poses.
+        let inside = corners.into_iter().filter(|&(column, row)| column.max(row) <= across);
+        let mut children: Vec<Block> = inside
+            .map(|shift| {
+                let bound = field.score(&cells[block.heading], shift, level);
+                Block { heading: block.heading, shift, level, bound }
+            })
+            .filter(|child| child.bound > least)
+            .collect();
         children.sort_by(|a, b| a.bound.total_cmp(&b.bound));
-        blocks.extend(children.into_iter().filter(|child| child.bound > least));
+        blocks.extend(children);
     }
     best
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::grid::{Lattice, Occupancy, OccupancyGrid};
+    use proptest::prelude::*;
+
+    /// A grid with a corner at `low`, row by row: 0 is a wall, 1 unknown, the rest free.
+    fn grid(width: u32, height: u32, low: [f64; 2], kinds: &[u8]) -> OccupancyGrid {
+        let lattice = Lattice::new(width, height, CELL, low).unwrap();
+        let cells = kinds[..lattice.len()].iter().map(|kind| match kind {
+            0 => Occupancy::Occupied,
+            1 => Occupancy::Unknown,
+            _ => Occupancy::Free,
+        });
+        OccupancyGrid::new(lattice, cells.collect()).unwrap()
+    }
+
+    /// How well a wall fits at a point, from the definition.
+    fn likeness(grid: &OccupancyGrid, at: [f64; 2]) -> f64 {
+        let lattice = grid.lattice();
+        let [column, row] = [0, 1].map(|axis| ((at[axis] - lattice.origin()[axis]) / CELL).floor());
+        if column < 0.0 || row < 0.0 || column >= lattice.width().into() || row >= lattice.height().into() {
+            return 0.0;
+        }
+        let walls = lattice.cells().filter(|&cell| grid.get(cell) == Occupancy::Occupied);
+        let away =
+            |cell: crate::grid::Cell| (f64::from(cell.column) - column).hypot(f64::from(cell.row) - row);
+        let off = CELL * walls.map(away).fold(f64::INFINITY, f64::min);
+        let fit = (-(off / 0.12) * (off / 0.12) / 2.0).exp();
+        let here = crate::grid::Cell { column: column as u32, row: row as u32 };
+        let is_contradicted = grid.get(here) == Occupancy::Free && off > 0.2;
+        let value = if is_contradicted { fit.min(-0.6 * ((off - 0.2) / 0.2).min(1.0)) } else { fit };
+        (100.0 * value).round() / 100.0
+    }
+
+    /// The mean of that over walls that are seen from a pose.
+    fn mean_likeness(grid: &OccupancyGrid, walls: &[Vector2<f64>], pose: [f64; 3]) -> f64 {
+        let (sin, cos) = pose[2].sin_cos();
+        let at = |wall: &Vector2<f64>| {
+            [pose[0] + cos * wall.x - sin * wall.y, pose[1] + sin * wall.x + cos * wall.y]
+        };
+        walls.iter().map(|wall| likeness(grid, at(wall))).sum::<f64>() / walls.len() as f64
+    }
+
+    /// All poses of a window outside a disc.
+    fn poses(window: &Window, but: Option<([f64; 2], f64)>) -> Vec<[f64; 3]> {
+        let (across, around) = ((window.across / CELL).ceil() as i32, (window.around / TURN).ceil() as i32);
+        let mut poses = Vec::new();
+        for turn in -around..=around {
+            for (column, row) in (-across..=across).flat_map(|c| (-across..=across).map(move |r| (c, r))) {
+                let (x, y) =
+                    (window.center.x + f64::from(column) * CELL, window.center.y + f64::from(row) * CELL);
+                if but.is_none_or(|(middle, apart)| (x - middle[0]).hypot(y - middle[1]) >= apart) {
+                    poses.push([x, y, window.center.theta + f64::from(turn) * TURN]);
+                }
+            }
+        }
+        poses
+    }
+
+    fn walls() -> impl Strategy<Value = Vec<Vector2<f64>>> {
+        let wall = (-1.5_f64..1.5, -1.5_f64..1.5).prop_map(|(x, y)| Vector2::new(x, y));
+        prop::collection::vec(wall, 1..6)
+    }
+
+    fn window() -> impl Strategy<Value = Window> {
+        (-1.0_f64..1.0, -1.0_f64..1.0, -3.0_f64..3.0, 0.05_f64..1.9, 0.0_f64..0.05).prop_map(
+            |(x, y, theta, across, around)| Window { center: Pose::new(x, y, theta), across, around },
+        )
+    }
+
+    proptest! {
+        #![proptest_config(ProptestConfig::with_cases(400))]
+        /// Against all poses one by one: the best score, and nothing only if nothing is above the threshold.
+        #[test]
+        fn finds_what_trying_everything_finds(
+            width in 1_u32..22, height in 1_u32..22, low in (-2.0_f64..0.0, -2.0_f64..0.0),
+            kinds in prop::collection::vec(0_u8..9, 22 * 22),
+            walls in walls(), window in window(), threshold in -0.3_f64..0.9,
+            but in prop::option::of((-1.0_f64..1.0, -1.0_f64..1.0, 0.05_f64..1.0)),
+        ) {
+            let grid = grid(width, height, [low.0, low.1], &kinds);
+            let middle = but.map(|(x, y, apart)| ([window.center.x + x, window.center.y + y], apart));
+            let expected = poses(&window, middle)
+                .into_iter()
+                .map(|pose| mean_likeness(&grid, &walls, pose))
+                .fold(f64::NEG_INFINITY, f64::max);
+            let excluded = middle.map(|([x, y], apart)| (Pose::new(x, y, 0.0), apart));
+            let found = search(&Field::new(&grid), &walls, &window, threshold, excluded);
+            prop_assert_eq!(found.is_some(), expected > threshold, "{:?} is the best", expected);
+            if let Some(Fit { pose, score }) = found {
+                prop_assert!((score - expected).abs() < 1e-9, "{} instead of {}", score, expected);
+                prop_assert!((mean_likeness(&grid, &walls, [pose.x, pose.y, pose.theta]) - score).abs() < 1e-9);
+                let off = pose.translation() - window.center.translation();
+                prop_assert!(off.amax() < window.across + CELL);
+                if let Some(([x, y], apart)) = middle {
+                    prop_assert!((pose.x - x).hypot(pose.y - y) >= apart);
+                }
+            }
+        }
+    }
 }
