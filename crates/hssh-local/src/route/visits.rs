@@ -113,10 +113,10 @@ fn between_places(mut stays: Vec<Stay>, network: &Network, out: &[WaysOut]) -> V
         let visits = stays.iter().filter(|other| other.spot == stay.spot).count();
         spot.arms.len() <= 1 && visits == 1 && out[stay.spot].gateways.len() <= 2
     };
-    if stays.len() > 1 && is_open_end(&stays[0], &stays) {
+    if stays.first().is_some_and(|first| is_open_end(first, &stays)) {
         stays.remove(0);
     }
-    if stays.len() > 1 && is_open_end(&stays[stays.len() - 1], &stays) {
+    if stays.last().is_some_and(|last| is_open_end(last, &stays)) {
         stays.pop();
     }
     if let Some(last) = stays.last_mut() {
