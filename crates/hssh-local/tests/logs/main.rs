@@ -7,5 +7,6 @@ mod local_map;
 mod matching;
 mod mutations;
 mod place;
+mod route;
 mod simulator;
 mod survey;

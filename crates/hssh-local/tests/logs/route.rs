@@ -1,0 +1,155 @@
+//! What holds of the visits of every survey, in buildings whose crossings are known.
+
+use std::collections::BTreeMap;
+
+use hssh_local::{LaserLog, Survey, SurveyOptions, Visit, survey};
+use hssh_topology::Olp;
+
+use crate::simulator::{around, drive, log};
+
+/// A building: its corridors as boxes, and the robot's way.
+struct World {
+    name: &'static str,
+    corridors: Vec<[[f64; 2]; 2]>,
+    way: Vec<[f64; 2]>,
+    /// What is visited: where in the building, and how many ways lead on there.
+    visits: Vec<([f64; 2], usize)>,
+}
+
+/// A corridor of 2 m along a line parallel to an axis, as long as the line and a metre more at both ends.
+fn corridor(from: [f64; 2], to: [f64; 2]) -> [[f64; 2]; 2] {
+    [
+        [from[0].min(to[0]) - 1.0, from[1].min(to[1]) - 1.0],
+        [from[0].max(to[0]) + 1.0, from[1].max(to[1]) + 1.0],
+    ]
+}
+
+fn worlds() -> Vec<World> {
+    let (a, b, c, d) = ([0.0, 0.0], [24.0, 0.0], [24.0, 24.0], [0.0, 24.0]);
+    let ring = [(a, b), (b, c), (c, d), (d, a)];
+    let ring: Vec<_> = ring.iter().map(|&(from, to)| corridor(from, to)).collect();
+    let with = |more: &[([f64; 2], [f64; 2])]| {
+        ring.iter().copied().chain(more.iter().map(|&(from, to)| corridor(from, to))).collect::<Vec<_>>()
+    };
+    vec![
+        World {
+            name: "twice around a ring with ways out",
+            corridors: with(&[([-18.0, 0.0], a), (c, [42.0, 24.0])]),
+            way: vec![[-14.0, 0.0], b, c, d, a, b, c, [40.0, 24.0]],
+            visits: vec![(a, 3), (b, 2), (c, 3), (d, 2), (a, 3), (b, 2), (c, 3)],
+        },
+        World {
+            name: "around a ring and back",
+            corridors: with(&[([-18.0, 0.0], a), (c, [42.0, 24.0])]),
+            way: vec![[-14.0, 0.0], b, c, d, a, d, c, [38.0, 24.0]],
+            visits: vec![(a, 3), (b, 2), (c, 3), (d, 2), (a, 3), (d, 2), (c, 3)],
+        },
+        World {
+            name: "an eight",
+            corridors: with(&[(b, [48.0, 0.0]), ([48.0, 0.0], [48.0, 24.0]), ([48.0, 24.0], c)]),
+            way: vec![[8.0, 0.0], b, c, d, a, [48.0, 0.0], [48.0, 24.0], [12.0, 24.0]],
+            visits: vec![(b, 3), (c, 3), (d, 2), (a, 2), (b, 3), ([48.0, 0.0], 2), ([48.0, 24.0], 2), (c, 3)],
+        },
+        World {
+            name: "a crossing in all directions",
+            corridors: vec![corridor([-20.0, 0.0], [20.0, 0.0]), corridor([0.0, -20.0], [0.0, 20.0])],
+            way: vec![[-14.0, 0.0], [18.5, 0.0], a, [0.0, 18.5], [0.0, -18.5], a, [-14.0, 0.0]],
+            visits: vec![
+                (a, 4),
+                ([18.5, 0.0], 1),
+                (a, 4),
+                ([0.0, 18.5], 1),
+                (a, 4),
+                ([0.0, -18.5], 1),
+                (a, 4),
+            ],
+        },
+    ]
+}
+
+/// The survey of a building, and where it is: the track starts at the robot's first position, turned as it was.
+fn surveyed(world: &World) -> Survey {
+    let poses = drive(&world.way, 0.4);
+    let text = log(&around(&world.corridors), &poses, &poses);
+    survey(&LaserLog::read(text.as_bytes()).unwrap(), &SurveyOptions::default(), |_, _| ()).unwrap()
+}
+
+/// Where a visit's place is in the building; all ways begin eastward.
+fn place(world: &World, visit: &Visit) -> [f64; 2] {
+    [visit.frame.x + world.way[0][0], visit.frame.y + world.way[0][1]]
+}
+
+fn visits_are_true(world: &World, survey: &Survey) {
+    let found: Vec<([f64; 2], usize)> = survey
+        .visits
+        .iter()
+        .map(|visit| (place(world, visit).map(f64::round), visit.star.gateways().count()))
+        .collect();
+    let name = world.name;
+    assert_eq!(found.len(), world.visits.len(), "{name}: {found:?}");
+    for (visit, (at, ways)) in survey.visits.iter().zip(&world.visits) {
+        let [x, y] = place(world, visit);
+        assert!((x - at[0]).hypot(y - at[1]) < 0.6, "{name}: {x} {y} is not {at:?} of {found:?}");
+        assert_eq!(visit.star.gateways().count(), *ways, "{name}: at {at:?}");
+    }
+    for (one, other) in pairs(&survey.visits) {
+        let ([x, y], at) = (place(world, one), place(world, other));
+        let is_same = (x - at[0]).hypot(y - at[1]) < 3.0;
+        assert_eq!(one.spot == other.spot, is_same, "{name}: {x} {y} and {at:?}");
+    }
+}
+
+fn pairs(visits: &[Visit]) -> impl Iterator<Item = (&Visit, &Visit)> {
+    visits.iter().enumerate().flat_map(|(index, one)| visits[..index].iter().map(move |other| (one, other)))
+}
+
+fn visits_to_one_spot_show_one_star(name: &str, survey: &Survey) {
+    for (one, other) in pairs(&survey.visits).filter(|(one, other)| one.spot == other.spot) {
+        assert_eq!(one.star, other.star, "{name}: spot {}", one.spot);
+        assert_eq!(one.frame, other.frame, "{name}: spot {}", one.spot);
+    }
+}
+
+fn ends_are_travelable_and_known(name: &str, survey: &Survey) {
+    let last = survey.visits.len() - 1;
+    for (index, visit) in survey.visits.iter().enumerate() {
+        assert_eq!(visit.entry.is_some(), index > 0, "{name}: entry of visit {index}");
+        assert_eq!(visit.exit.is_some(), index < last, "{name}: exit of visit {index}");
+        for end in [visit.entry, visit.exit].into_iter().flatten() {
+            assert!(visit.star.star.is_travelable(end), "{name}: {end:?} of visit {index}");
+        }
+        assert!(
+            visit.scans.0 <= visit.reference && visit.reference <= visit.scans.1,
+            "{name}: visit {index}"
+        );
+    }
+    for pair in survey.visits.windows(2) {
+        assert!(pair[0].scans.1 < pair[1].scans.0, "{name}: {:?} {:?}", pair[0].scans, pair[1].scans);
+    }
+}
+
+/// A way has two ends: who leaves by the one comes in by the other, in both directions.
+fn ways_have_two_ends(name: &str, survey: &Survey) {
+    let mut other_end: BTreeMap<(usize, Olp), (usize, Olp)> = BTreeMap::new();
+    for pair in survey.visits.windows(2) {
+        let exit = (pair[0].spot, pair[0].exit.unwrap());
+        let entry = (pair[1].spot, pair[1].entry.unwrap());
+        for (one, other) in [(exit, entry), (entry, exit)] {
+            let before = *other_end.entry(one).or_insert(other);
+            assert_eq!(before, other, "{name}: from {one:?}");
+        }
+    }
+}
+
+#[test]
+fn buildings_come_out_as_they_were_built() {
+    for world in worlds() {
+        let survey = surveyed(&world);
+        visits_are_true(&world, &survey);
+        visits_to_one_spot_show_one_star(world.name, &survey);
+        ends_are_travelable_and_known(world.name, &survey);
+        ways_have_two_ends(world.name, &survey);
+        assert_eq!(survey.evidence.contradicted, 0, "{}", world.name);
+        survey.exploration().unwrap();
+    }
+}
