@@ -1,5 +1,7 @@
 //! The visits of a route: the same star at every visit to one spot.
 
+use std::collections::BTreeSet;
+
 use hssh_metrics::Pose;
 use hssh_topology::Olp;
 use nalgebra::Vector2;
@@ -106,17 +108,18 @@ fn without_passages(stays: Vec<Stay>, is_passage: &[bool]) -> Vec<Stay> {
     kept
 }
 
-/// The stays without the spots where the log just begins or ends: nothing there was seen to be a place.
+/// The stays without the spots where the log just begins or ends, or both: nothing there was seen to be a place.
 fn between_places(mut stays: Vec<Stay>, network: &Network, out: &[WaysOut]) -> Vec<Stay> {
-    let is_open_end = |stay: &Stay, stays: &[Stay]| {
-        let spot = &network.spots[stay.spot];
-        let visits = stays.iter().filter(|other| other.spot == stay.spot).count();
-        spot.arms.len() <= 1 && visits == 1 && out[stay.spot].gateways.len() <= 2
+    let between: BTreeSet<usize> =
+        stays.iter().skip(1).take(stays.len().saturating_sub(2)).map(|stay| stay.spot).collect();
+    let is_open_end = |stay: &Stay| {
+        let spot = stay.spot;
+        network.spots[spot].arms.len() <= 1 && out[spot].gateways.len() <= 2 && !between.contains(&spot)
     };
-    if stays.first().is_some_and(|first| is_open_end(first, &stays)) {
+    if stays.first().is_some_and(is_open_end) {
         stays.remove(0);
     }
-    if stays.last().is_some_and(|last| is_open_end(last, &stays)) {
+    if stays.last().is_some_and(is_open_end) {
         stays.pop();
     }
     if let Some(last) = stays.last_mut() {
