@@ -5,11 +5,8 @@ use hssh_local::{
     close_loops,
 };
 use hssh_metrics::Pose;
-use rand::SeedableRng;
-use rand_chacha::ChaCha8Rng;
-use rand_distr::{Distribution, StandardNormal};
 
-use crate::simulator::{around, drive, log};
+use crate::simulator::{around, drifting, drive, log};
 
 /// A box of free space: its low and its high corner, in metres.
 type Space = [[f64; 2]; 2];
@@ -18,27 +15,6 @@ type Space = [[f64; 2]; 2];
 /// and how wide.
 fn niches(x: f64, at: &[(f64, f64)]) -> Vec<Space> {
     at.iter().map(|&(y, width)| [[x, y], [x + 1.75, y + width]]).collect()
-}
-
-/// What odometry says that drifts: `bend` radians for each metre, and noise.
-fn drifting(poses: &[Pose], bend: f64, seed: u64) -> Vec<Pose> {
-    let mut rng = ChaCha8Rng::seed_from_u64(seed);
-    let mut odometry = vec![Pose::IDENTITY];
-    for pair in poses.windows(2) {
-        let step = pair[0].between(pair[1]);
-        let length = step.translation().norm();
-        let mut noise = |sigma: f64| -> f64 {
-            let normal: f64 = StandardNormal.sample(&mut rng);
-            normal * sigma
-        };
-        let wrong = Pose::new(
-            step.x + noise(0.02) * length.sqrt(),
-            step.y + noise(0.01) * length.sqrt(),
-            step.theta + bend * length + noise(0.002) * length.sqrt(),
-        );
-        odometry.push(odometry[odometry.len() - 1].compose(wrong));
-    }
-    odometry
 }
 
 /// The track of a robot that believes its odometry.
