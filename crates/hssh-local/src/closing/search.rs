@@ -33,6 +33,19 @@ struct Block {
     bound: f64,
 }
 
+/// The poses of a window, and what walls meet from each heading.
+struct Search<'a> {
+    field: &'a Field,
+    window: &'a Window,
+    headings: Vec<f64>,
+    /// By heading, the cells of the walls from the window's center.
+    cells: Vec<Vec<(i32, i32)>>,
+    /// Cells to each side.
+    across: i32,
+    /// Where poses do not count, and how many metres around.
+    but: Option<(Pose, f64)>,
+}
+
 /// The best pose in the window with a score above `threshold`; poses within `apart` metres of `but` do not count.
 pub(super) fn search(
     field: &Field,
@@ -41,76 +54,82 @@ pub(super) fn search(
     threshold: f64,
     but: Option<(Pose, f64)>,
 ) -> Option<Fit> {
-    let steps = (window.around / TURN).ceil() as i32;
-    let headings: Vec<f64> =
-        (-steps..=steps).map(|step| window.center.theta + f64::from(step) * TURN).collect();
-    let cells: Vec<Vec<(i32, i32)>> = headings
-        .iter()
-        .map(|&theta| {
-            let at = Pose { theta, ..window.center };
-            let rotation = at.rotation();
-            walls.iter().map(|wall| field.cell(at.translation() + rotation * wall)).collect()
-        })
-        .collect();
-    let across = (window.across / CELL).ceil() as i32;
-    let top = (0..=Field::TOP).rev().find(|&level| (1 << level) <= across.max(1)).unwrap_or(0);
-    let mut blocks: Vec<Block> = Vec::new();
-    for heading in 0..headings.len() {
-        for row in (-across..=across).step_by(1 << top) {
-            for column in (-across..=across).step_by(1 << top) {
-                let shift = (column, row);
-                blocks.push(Block {
-                    heading,
-                    shift,
-                    level: top,
-                    bound: field.score(&cells[heading], shift, top),
-                });
-            }
-        }
-    }
-    let pose = |block: &Block| {
-        let shift = Vector2::new(f64::from(block.shift.0), f64::from(block.shift.1)) * CELL;
-        Pose::new(window.center.x + shift.x, window.center.y + shift.y, headings[block.heading])
-    };
-    let is_excluded = |block: &Block| {
-        but.is_some_and(|(pose_but, apart)| {
-            let size = f64::from((1 << block.level) - 1) * CELL;
-            let middle = pose(block).translation() + Vector2::new(size, size) / 2.0;
-            (middle - pose_but.translation()).norm() + size * 0.7072 < apart
-        })
-    };
+    let search = Search::new(field, walls, window, but);
+    let mut blocks = search.blocks();
     let mut best: Option<Fit> = None;
     let mut least = threshold;
-    blocks.sort_by(|a, b| a.bound.total_cmp(&b.bound));
     while let Some(block) = blocks.pop() {
-        if block.bound <= least {
-            continue;
-        }
-        if is_excluded(&block) {
+        if block.bound <= least || search.is_excluded(&block) {
             continue;
         }
         if block.level == 0 {
             least = block.bound;
-            best = Some(Fit { pose: pose(&block), score: block.bound });
+            best = Some(Fit { pose: search.pose(&block), score: block.bound });
             continue;
         }
+        let parts = search.parts(&block).into_iter().filter(|part| part.bound > least);
+        let first = blocks.len();
+        blocks.extend(parts);
+        blocks[first..].sort_by(|a, b| a.bound.total_cmp(&b.bound));
+    }
+    best
+}
+
+impl<'a> Search<'a> {
+    fn new(field: &'a Field, walls: &[Vector2<f64>], window: &'a Window, but: Option<(Pose, f64)>) -> Self {
+        let steps = (window.around / TURN).ceil() as i32;
+        let headings: Vec<f64> =
+            (-steps..=steps).map(|step| window.center.theta + f64::from(step) * TURN).collect();
+        let seen_with = |&theta: &f64| {
+            let at = Pose { theta, ..window.center };
+            let rotation = at.rotation();
+            walls.iter().map(|wall| field.cell(at.translation() + rotation * wall)).collect()
+        };
+        let cells = headings.iter().map(seen_with).collect();
+        Search { field, window, headings, cells, across: (window.across / CELL).ceil() as i32, but }
+    }
+
+    /// Blocks that cover the window, the best last.
+    fn blocks(&self) -> Vec<Block> {
+        let across = self.across;
+        let top = (0..=Field::TOP).rev().find(|&level| (1 << level) <= across.max(1)).unwrap_or(0);
+        let corners = || (-across..=across).step_by(1 << top);
+        let shifts: Vec<(i32, i32)> =
+            corners().flat_map(|row| corners().map(move |column| (column, row))).collect();
+        let of_heading = |heading: usize| shifts.iter().map(move |&shift| self.block(heading, shift, top));
+        let mut blocks: Vec<Block> = (0..self.headings.len()).flat_map(of_heading).collect();
+        blocks.sort_by(|a, b| a.bound.total_cmp(&b.bound));
+        blocks
+    }
+
+    fn block(&self, heading: usize, shift: (i32, i32), level: usize) -> Block {
+        Block { heading, shift, level, bound: self.field.score(&self.cells[heading], shift, level) }
+    }
+
+    /// The quarters of a block, without those that lie beyond the window.
+    fn parts(&self, block: &Block) -> Vec<Block> {
         let level = block.level - 1;
         let half = 1 << level;
         let corners = [(0, 0), (half, 0), (0, half), (half, half)]
             .map(|(column, row)| (block.shift.0 + column, block.shift.1 + row));
-        // What lies beyond the window is none of the poses.
-        let inside = corners.into_iter().filter(|&(column, row)| column.max(row) <= across);
-        let mut children: Vec<Block> = inside
-            .map(|shift| {
-                let bound = field.score(&cells[block.heading], shift, level);
-                Block { heading: block.heading, shift, level, bound }
-            })
-            .filter(|child| child.bound > least)
-            .collect();
-        children.sort_by(|a, b| a.bound.total_cmp(&b.bound));
-        blocks.extend(children);
+        let inside = corners.into_iter().filter(|&(column, row)| column.max(row) <= self.across);
+        inside.map(|shift| self.block(block.heading, shift, level)).collect()
     }
-    best
+
+    /// The first pose of a block.
+    fn pose(&self, block: &Block) -> Pose {
+        let (x, y) = (f64::from(block.shift.0) * CELL, f64::from(block.shift.1) * CELL);
+        Pose::new(self.window.center.x + x, self.window.center.y + y, self.headings[block.heading])
+    }
+
+    /// Whether none of a block's poses counts.
+    fn is_excluded(&self, block: &Block) -> bool {
+        self.but.is_some_and(|(but, apart)| {
+            let size = f64::from((1 << block.level) - 1) * CELL;
+            let middle = self.pose(block).translation() + Vector2::new(size, size) / 2.0;
+            (middle - but.translation()).norm() + size * 0.7072 < apart
+        })
+    }
 }
 
 #[cfg(test)]

@@ -228,8 +228,11 @@ mod tests {
         kept.map(|(_, at)| Pose::new(at.x, at.y, 0.0)).collect()
     }
 
+    /// An end of a way, as numbers.
+    type End = (usize, bool);
+
     /// Spots, ends by which the robot came, and ends by which it left: the way and whether it is the last.
-    fn told(stays: &[Stay]) -> Vec<(usize, Option<(usize, bool)>, Option<(usize, bool)>)> {
+    fn told(stays: &[Stay]) -> Vec<(usize, Option<End>, Option<End>)> {
         let end = |end: Option<WayEnd>| end.map(|end| (end.way, end.is_last));
         stays.iter().map(|stay| (stay.spot, end(stay.came), end(stay.left))).collect()
     }

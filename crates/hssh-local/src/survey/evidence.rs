@@ -59,30 +59,11 @@ impl Evidence {
 
 /// The evidence for a closed track, and what there is to say about it.
 pub(super) fn evidence(track: &Track, closures: &[Closure]) -> (Evidence, Vec<SurveyWarning>) {
-    let at = |scan: usize| track.scans[scan].travelled;
     let (believed, contradicted): (Vec<Closure>, Vec<Closure>) =
         closures.iter().partition(|closure| closure.weight >= BELIEVED);
     let mut warnings = Vec::new();
-    let stretches = |closures: &[Closure]| -> Vec<Closure> {
-        let mut stretches: Vec<Closure> = Vec::new();
-        let mut last: Vec<Closure> = Vec::new();
-        for closure in closures {
-            let is_same = |other: &Closure| {
-                (at(other.later) - at(closure.later)).abs() < ONE_RETURN
-                    && (at(other.earlier) - at(closure.earlier)).abs() < ONE_RETURN
-            };
-            match last.iter_mut().find(|other| is_same(other)) {
-                Some(other) => *other = *closure,
-                None => {
-                    stretches.push(*closure);
-                    last.push(*closure);
-                }
-            }
-        }
-        stretches
-    };
-    let mut evidence = Evidence { returns: stretches(&believed).len(), ..Evidence::default() };
-    for closure in stretches(&contradicted) {
+    let mut evidence = Evidence { returns: stretches(track, &believed).len(), ..Evidence::default() };
+    for closure in stretches(track, &contradicted) {
         evidence.contradicted += 1;
         warnings.push(SurveyWarning::Contradicted { scan: closure.later + 1, earlier: closure.earlier + 1 });
     }
@@ -91,6 +72,26 @@ pub(super) fn evidence(track: &Track, closures: &[Closure]) -> (Evidence, Vec<Su
         warnings.push(SurveyWarning::Unconfirmed { scan: later + 1, earlier: earlier + 1 });
     }
     (evidence, warnings)
+}
+
+/// The first closure of each stretch along which one follows another.
+fn stretches(track: &Track, closures: &[Closure]) -> Vec<Closure> {
+    let at = |scan: usize| track.scans[scan].travelled;
+    let (mut first, mut last): (Vec<Closure>, Vec<Closure>) = (Vec::new(), Vec::new());
+    for closure in closures {
+        let is_same = |other: &Closure| {
+            (at(other.later) - at(closure.later)).abs() < ONE_RETURN
+                && (at(other.earlier) - at(closure.earlier)).abs() < ONE_RETURN
+        };
+        match last.iter_mut().find(|other| is_same(other)) {
+            Some(other) => *other = *closure,
+            None => {
+                first.push(*closure);
+                last.push(*closure);
+            }
+        }
+    }
+    first
 }
 
 /// Where the robot seems to be back, and no closure says so: one pair of scans for each stretch.
