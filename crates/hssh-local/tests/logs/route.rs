@@ -115,7 +115,7 @@ fn worlds() -> Vec<World> {
 /// The survey of a building by a robot that begins turned by `turn` radians; its odometry bends by `bend` radians for
 /// each metre, with noise.
 fn surveyed(world: &World, turn: f64, bend: f64) -> Survey {
-    let mut poses = drive(&world.way, 0.4);
+    let mut poses = drive(&world.way, 0.6);
     let steps = (turn.abs() / 0.2).ceil() as u32;
     let turned = (1..=steps).rev().map(|step| {
         let theta = poses[0].theta + turn * f64::from(step) / f64::from(steps);
