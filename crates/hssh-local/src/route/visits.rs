@@ -67,7 +67,7 @@ pub(crate) fn route(
     let is_passage: Vec<bool> =
         stars.iter().map(|star| star.as_ref().is_none_or(|star| star.kind() == PlaceKind::Passage)).collect();
     let stays = without_passages(walk(&network, &travelled, poses, options), &is_passage);
-    let stays = between_places(stays, &network, &out);
+    let stays = between_places(stays, poses.len() - 1, &network, &out);
     let mut number: Vec<Option<usize>> = vec![None; network.spots.len()];
     let mut route = Route::default();
     for stay in &stays {
@@ -108,13 +108,14 @@ fn without_passages(stays: Vec<Stay>, is_passage: &[bool]) -> Vec<Stay> {
     kept
 }
 
-/// The stays without the spots where the log just begins or ends, or both: nothing there was seen to be a place.
-fn between_places(mut stays: Vec<Stay>, network: &Network, out: &[WaysOut]) -> Vec<Stay> {
-    let between: BTreeSet<usize> =
-        stays.iter().skip(1).take(stays.len().saturating_sub(2)).map(|stay| stay.spot).collect();
+/// The stays without the spots where the log just begins or ends, or both: nothing there was seen to be a place. What
+/// the robot turned back at is one, even if it came to no other before or after. `last` is the last scan.
+fn between_places(mut stays: Vec<Stay>, last: usize, network: &Network, out: &[WaysOut]) -> Vec<Stay> {
+    let is_end = |stay: &Stay| stay.scans.0 == 0 || stay.scans.1 == last;
+    let turned: BTreeSet<usize> = stays.iter().filter(|stay| !is_end(stay)).map(|stay| stay.spot).collect();
     let is_open_end = |stay: &Stay| {
         let spot = stay.spot;
-        network.spots[spot].arms.len() <= 1 && out[spot].gateways.len() <= 2 && !between.contains(&spot)
+        network.spots[spot].arms.len() <= 1 && out[spot].gateways.len() <= 2 && !turned.contains(&spot)
     };
     if stays.first().is_some_and(is_open_end) {
         stays.remove(0);
