@@ -133,23 +133,9 @@ impl<'a> Closing<'a> {
 
     /// Looks for one submap among those before.
     fn close(&mut self, query: usize) -> Result<(), ClosingError> {
-        let here = self.pose(query);
-        let ways = self.ways(query);
-        let mut candidates: Vec<(f64, usize, Window)> = Vec::new();
-        for reference in 0..query {
-            if self.submaps[query].travelled - self.submaps[reference].travelled < self.options.least_travel {
-                continue;
-            }
-            let window = self.window(here, reference, ways[reference]);
-            let off = window.center.translation().norm();
-            if off < window.across + self.options.stretch / 2.0 {
-                candidates.push((off, reference, window));
-            }
-        }
-        candidates.sort_by(|a, b| a.0.total_cmp(&b.0));
         let mut tried: Vec<usize> = Vec::new();
         let mut found: Vec<Match> = Vec::new();
-        for (_, reference, window) in candidates {
+        for (_, reference, window) in self.candidates(query) {
             let is_like = |&other: &usize| {
                 let travel = self.submaps[other].travelled - self.submaps[reference].travelled;
                 travel.abs() < 1.5 * self.options.stretch
@@ -159,17 +145,39 @@ impl<'a> Closing<'a> {
             }
             tried.push(reference);
             let matched = find(&self.submaps, &self.keyframes, (query, reference), &window, self.options);
-            found.extend(matched.filter(|found| {
-                found.is_clear
-                    && found.agreement >= self.options.least_agreement
-                    && found.overlap >= self.options.least_overlap
-            }));
+            found.extend(matched.filter(|found| self.is_good(found)));
             if tried.len() >= MOST_CANDIDATES {
                 break;
             }
         }
         self.tentative[query] = self.unambiguous(&found);
         self.accept(query)
+    }
+
+    /// The earlier submaps that a submap may lie on: how far off each is believed to be, and where to look. The
+    /// nearest first.
+    fn candidates(&self, query: usize) -> Vec<(f64, usize, Window)> {
+        let here = self.pose(query);
+        let is_long_ago = |reference: usize| {
+            self.submaps[query].travelled - self.submaps[reference].travelled >= self.options.least_travel
+        };
+        let mut candidates: Vec<(f64, usize, Window)> = Vec::new();
+        for (reference, way) in self.ways(query).into_iter().enumerate().take(query) {
+            let window = self.window(here, reference, way);
+            let off = window.center.translation().norm();
+            if is_long_ago(reference) && off < window.across + self.options.stretch / 2.0 {
+                candidates.push((off, reference, window));
+            }
+        }
+        candidates.sort_by(|a, b| a.0.total_cmp(&b.0));
+        candidates
+    }
+
+    /// Whether a match is good enough to be one in a chain.
+    fn is_good(&self, found: &Match) -> bool {
+        found.is_clear
+            && found.agreement >= self.options.least_agreement
+            && found.overlap >= self.options.least_overlap
     }
 
     /// Of the matches of one submap those that no other one, elsewhere and nearly as good, makes doubtful.
@@ -198,25 +206,9 @@ impl<'a> Closing<'a> {
                 added.extend(chain);
             }
         }
-        let is_new = |one: &Match, all: &[Match]| {
-            !all.iter().any(|other| (other.query, other.reference) == (one.query, one.reference))
-        };
         let mut farthest: f64 = 0.0;
         for one in added {
-            if !is_new(&one, &self.accepted) {
-                continue;
-            }
-            let (from, to) = (self.submaps[one.reference].middle, self.submaps[one.query].middle);
-            let edge = Edge::observed(
-                PoseId(from as u32),
-                PoseId(to as u32),
-                one.relative.mean,
-                &one.relative.covariance,
-            );
-            let off = edge.error(self.graph.poses()[from], self.graph.poses()[to]);
-            farthest = farthest.max(off.xy().norm()).max(10.0 * off.z.abs());
-            self.graph.add_edge(edge)?;
-            self.accepted.push(one);
+            farthest = farthest.max(self.add(one)?);
         }
         if farthest > MOVED {
             let solution = solve(&self.graph, &Options::default())?;
@@ -230,6 +222,20 @@ impl<'a> Closing<'a> {
         let score = chain.iter().map(|found| found.score).sum::<f64>() / chain.len() as f64;
         let is_strong = score >= self.options.strong_score || chain.iter().all(|found| found.is_expected);
         chain.len() + usize::from(is_strong) >= self.options.least_chain
+    }
+
+    /// Adds a match to the graph, if it is not there yet, and tells how far off it is: metres, and 10 for a radian.
+    fn add(&mut self, one: Match) -> Result<f64, ClosingError> {
+        if self.accepted.iter().any(|other| (other.query, other.reference) == (one.query, one.reference)) {
+            return Ok(0.0);
+        }
+        let [from, to] = [one.reference, one.query].map(|submap| self.submaps[submap].middle);
+        let (start, end) = (PoseId(from as u32), PoseId(to as u32));
+        let edge = Edge::observed(start, end, one.relative.mean, &one.relative.covariance);
+        let off = edge.error(self.graph.poses()[from], self.graph.poses()[to]);
+        self.graph.add_edge(edge)?;
+        self.accepted.push(one);
+        Ok(off.xy().norm().max(10.0 * off.z.abs()))
     }
 
     /// The poses that a submap may have in the frame of an earlier one.
@@ -253,7 +259,7 @@ impl<'a> Closing<'a> {
             neighbors[later].push((later - 1, length));
             neighbors[later - 1].push((later, length));
         }
-        for closure in &self.accepted {
+        for closure in self.accepted.iter().filter(|closure| closure.slide.is_none()) {
             neighbors[closure.query].push((closure.reference, CLOSURE_LENGTH));
             neighbors[closure.reference].push((closure.query, CLOSURE_LENGTH));
         }
@@ -303,10 +309,10 @@ fn spread(keyframes: &[Keyframe], poses: &[Pose], track: &Track) -> Vec<Pose> {
         let last = start.compose(pair[0].tracked.between(pair[1].tracked));
         let correction = last.between(end).log();
         let length = (pair[1].scan - pair[0].scan) as f64;
-        for scan in pair[0].scan..=pair[1].scan {
-            let share = (scan - pair[0].scan) as f64 / length;
+        let scans = pair[0].scan..=pair[1].scan;
+        for (number, scan) in scans.enumerate() {
             let moved = start.compose(pair[0].tracked.between(track.scans[scan].pose));
-            all[scan] = moved.compose(Pose::exp(correction * share));
+            all[scan] = moved.compose(Pose::exp(correction * (number as f64 / length)));
         }
     }
     if let ([_], [only]) = (keyframes, poses) {

@@ -15,8 +15,10 @@ const CONTRADICTION: f64 = -0.6;
 /// A hundredth is the unit of the numbers kept.
 const UNIT: f64 = 100.0;
 
-/// The blocks of one size, side by side.
+/// The blocks of one size, side by side; outside of them all is 0.
 struct Level {
+    /// The column and the row of the first block.
+    first: i32,
     width: i32,
     height: i32,
     values: Vec<i8>,
@@ -31,8 +33,35 @@ pub(super) struct Field {
 
 impl Level {
     fn at(&self, column: i32, row: i32) -> i8 {
+        let (column, row) = (column - self.first, row - self.first);
         let is_inside = column >= 0 && row >= 0 && column < self.width && row < self.height;
         if is_inside { self.values[(row * self.width + column) as usize] } else { 0 }
+    }
+
+    /// The best of each block of `size` × `size` values.
+    fn blocks(&self, size: i32) -> Self {
+        let (width, height) = ((self.width + size - 1) / size, (self.height + size - 1) / size);
+        let is_cut =
+            |block: i32| (block % width + 1) * size > self.width || (block / width + 1) * size > self.height;
+        let mut values: Vec<i8> =
+            (0..width * height).map(|block| if is_cut(block) { 0 } else { i8::MIN }).collect();
+        for (index, &value) in (0..).zip(&self.values) {
+            let (column, row) = (index % self.width, index / self.width);
+            let block = &mut values[(row / size * width + column / size) as usize];
+            *block = value.max(*block);
+        }
+        Level { first: 0, width, height, values }
+    }
+
+    /// The best of four blocks from each on, also from those just before the first.
+    fn of_four(&self) -> Self {
+        let (width, height) = (self.width + 1, self.height + 1);
+        let best = |block: i32| {
+            let (column, row) = (block % width - 1, block / width - 1);
+            let four = [(0, 0), (1, 0), (0, 1), (1, 1)].map(|(c, r)| self.at(column + c, row + r));
+            four.into_iter().fold(i8::MIN, i8::max)
+        };
+        Level { first: -1, width, height, values: (0..width * height).map(best).collect() }
     }
 }
 
@@ -53,43 +82,15 @@ impl Field {
             (value * UNIT).round() as i8
         };
         let base = Level {
+            first: 0,
             width: lattice.width() as i32,
             height: lattice.height() as i32,
             values: lattice.cells().map(value).collect(),
         };
-        let mut levels = vec![base];
         // Above level 0 a value is the best of the four blocks from the block's corner on, so that it bounds
         // every shift by less than a block: of a point in it.
-        for level in 1..=Self::TOP {
-            let below = &levels[0];
-            let size = 1 << level;
-            let (width, height) = (below.width / size + 1, below.height / size + 1);
-            let mut blocks = Level { width, height, values: vec![0; (width * height) as usize] };
-            let mut single = vec![i8::MIN; (width * height) as usize];
-            for row in 0..below.height {
-                for column in 0..below.width {
-                    let block = ((row / size) * width + column / size) as usize;
-                    single[block] = single[block].max(below.values[(row * below.width + column) as usize]);
-                }
-            }
-            let at =
-                |column: i32, row: i32| {
-                    let is_inside = column < width && row < height;
-                    if is_inside {
-                        single[(row * width + column) as usize]
-                            .max(if column + 1 == width || row + 1 == height { 0 } else { i8::MIN })
-                    } else {
-                        0
-                    }
-                };
-            for row in 0..height {
-                for column in 0..width {
-                    let corners = [(0, 0), (1, 0), (0, 1), (1, 1)].map(|(c, r)| at(column + c, row + r));
-                    blocks.values[(row * width + column) as usize] = corners.into_iter().max().unwrap_or(0);
-                }
-            }
-            levels.push(blocks);
-        }
+        let above: Vec<Level> = (1..=Self::TOP).map(|level| base.blocks(1 << level).of_four()).collect();
+        let levels = std::iter::once(base).chain(above).collect();
         let [x, y] = lattice.origin();
         Field { origin: Vector2::new(x, y), cell: lattice.resolution(), levels }
     }
@@ -123,5 +124,59 @@ impl Field {
             near += usize::from(is_near);
         }
         (seen, near)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::grid::Lattice;
+    use proptest::prelude::*;
+
+    /// A wall, free space on its right, and nothing seen on its left.
+    fn wall_in_the_middle() -> Field {
+        let lattice = Lattice::new(21, 5, 0.1, [-1.05, -0.25]).unwrap();
+        let cells = lattice.cells().map(|cell| match cell.column {
+            0..10 => Occupancy::Unknown,
+            10 => Occupancy::Occupied,
+            _ => Occupancy::Free,
+        });
+        Field::new(&OccupancyGrid::new(lattice, cells.collect()).unwrap())
+    }
+
+    #[test]
+    fn walls_speak_for_walls_free_space_against_them_and_the_unseen_is_silent() {
+        let field = wall_in_the_middle();
+        let score = |x: f64| field.score(&[field.cell(Vector2::new(x, 0.0))], (0, 0), 0);
+        assert_eq!(score(0.0), 1.0);
+        assert!(score(0.1) > 0.6 && score(-0.1) > 0.6, "{} {}", score(0.1), score(-0.1));
+        assert_eq!((score(0.6), score(-0.6)), (-0.6, 0.0));
+        assert_eq!((score(7.0), score(-7.0)), (0.0, 0.0), "outside nothing was seen");
+        let points = [0.0, 0.1, 0.6, 0.9, -0.6, -0.9, 7.0].map(|x| Vector2::new(x, 0.0));
+        assert_eq!(field.meets(points.into_iter()), (4, 2));
+    }
+
+    proptest! {
+        #![proptest_config(ProptestConfig::with_cases(500))]
+        /// What a level tells of a shift bounds every shift by less than a block, also from outside of the grid.
+        #[test]
+        fn levels_are_upper_bounds(
+            width in 1_u32..40, height in 1_u32..40, kinds in prop::collection::vec(0_u8..30, 40 * 40),
+            cells in prop::collection::vec((-20_i32..60, -20_i32..60), 1..4),
+            shift in (-40_i32..40, -40_i32..40), level in 1_usize..=Field::TOP,
+        ) {
+            let lattice = Lattice::new(width, height, 0.1, [0.3, -0.7]).unwrap();
+            let occupancies = kinds[..lattice.len()].iter().map(|kind| match kind {
+                0 => Occupancy::Occupied,
+                1..15 => Occupancy::Unknown,
+                _ => Occupancy::Free,
+            });
+            let field = Field::new(&OccupancyGrid::new(lattice, occupancies.collect()).unwrap());
+            let bound = field.score(&cells, shift, level);
+            for (columns, rows) in (0..1 << level).flat_map(|c| (0..1 << level).map(move |r| (c, r))) {
+                let score = field.score(&cells, (shift.0 + columns, shift.1 + rows), 0);
+                prop_assert!(score <= bound, "{} at {} {} is above {}", score, columns, rows, bound);
+            }
+        }
     }
 }

@@ -50,3 +50,72 @@ pub(super) fn flood(
     }
     source_of
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    /// The distance in fifths of a cell from each cell to a source, by going through all cells until nothing
+    /// becomes shorter.
+    fn distances(
+        width: u32,
+        height: u32,
+        source: (u32, u32),
+        is_free: impl Fn(u32, u32) -> bool,
+    ) -> Vec<u32> {
+        let mut distances = vec![u32::MAX; (width * height) as usize];
+        distances[(source.1 * width + source.0) as usize] = 0;
+        loop {
+            let before = distances.clone();
+            for (column, row) in (0..height).flat_map(|row| (0..width).map(move |column| (column, row))) {
+                let here = before[(row * width + column) as usize];
+                if here == u32::MAX {
+                    continue;
+                }
+                for (c, r) in (0..height).flat_map(|row| (0..width).map(move |column| (column, row))) {
+                    let off = (c.abs_diff(column), r.abs_diff(row));
+                    let step = match off {
+                        (0, 1) | (1, 0) => 5,
+                        (1, 1) => 7,
+                        _ => continue,
+                    };
+                    if is_free(c, r) {
+                        let there = &mut distances[(r * width + c) as usize];
+                        *there = (*there).min(here + step);
+                    }
+                }
+            }
+            if before == distances {
+                return distances;
+            }
+        }
+    }
+
+    proptest! {
+        #![proptest_config(ProptestConfig::with_cases(200))]
+        /// Against the distances from each source alone.
+        #[test]
+        fn the_source_is_a_nearest_one(
+            (width, height) in (1_u32..9, 1_u32..9), noise in prop::collection::vec(0_u8..3, 9 * 9),
+            places in prop::collection::vec((0_u32..9, 0_u32..9), 0..4), reach in 0.0_f64..4.0,
+        ) {
+            let lattice = Lattice::new(width, height, 0.5, [3.0, -2.0]).unwrap();
+            let is_free = |column: u32, row: u32| noise[(row * 9 + column) as usize] > 0;
+            let sources: Vec<Cell> =
+                places.iter().map(|at| Cell { column: at.0 % width, row: at.1 % height }).collect();
+            let alone: Vec<Vec<u32>> =
+                sources.iter().map(|cell| distances(width, height, (cell.column, cell.row), is_free)).collect();
+            let found = flood(&lattice, &sources, reach, |cell| is_free(cell.column, cell.row));
+            prop_assert_eq!(found.len(), lattice.len());
+            for (index, &source) in found.iter().enumerate() {
+                let least = alone.iter().map(|distances| distances[index]).min().unwrap_or(u32::MAX);
+                let is_reached = f64::from(least) * 0.1 <= reach;
+                prop_assert_eq!(source != UNREACHED, is_reached, "{} fifths", least);
+                if is_reached {
+                    prop_assert_eq!(alone[source as usize][index], least);
+                }
+            }
+        }
+    }
+}

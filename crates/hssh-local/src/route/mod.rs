@@ -1,6 +1,8 @@
 //! Routes: the network of the ways that a robot went, in the frame of a track whose loops are closed. What was
 //! travelled is certain: where its own ways part, or it turned back, a place is, whether it looked like one or not.
 
+#[cfg(test)]
+mod drawn;
 mod flood;
 mod network;
 mod options;

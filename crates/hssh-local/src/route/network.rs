@@ -208,3 +208,99 @@ impl Network {
         self.ways[end.way].spots[usize::from(end.is_last)]
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::super::drawn::{drawn, networks};
+    use super::*;
+    use proptest::prelude::*;
+
+    /// Whether every end of a way is an arm of its spot, and no other arm is.
+    fn is_connected(network: &Network) -> bool {
+        let mut arms: Vec<(WayEnd, usize)> = Vec::new();
+        for (index, spot) in network.spots.iter().enumerate() {
+            arms.extend(spot.arms.iter().map(|&arm| (arm, index)));
+        }
+        arms.sort();
+        let ends = (0..network.ways.len()).flat_map(|way| {
+            [false, true]
+                .map(|is_last| (WayEnd { way, is_last }, network.ways[way].spots[usize::from(is_last)]))
+        });
+        arms == ends.collect::<Vec<_>>()
+    }
+
+    proptest! {
+        #![proptest_config(ProptestConfig::with_cases(200))]
+        #[test]
+        fn split_keeps_lengths_and_connections(
+            corners in prop::collection::vec((-15.0_f64..15.0, -15.0_f64..15.0).prop_map(|(x, y)| [x, y]), 1..4),
+            parts in prop::collection::vec(0.2_f64..1.0, 1..5),
+        ) {
+            let mut network =
+                drawn(&[[-16.0, 0.0], [16.0, 0.0], [0.0, 17.0]], &[(0, 1, corners), (1, 2, vec![]), (2, 0, vec![])]);
+            let old = network.ways[0].clone();
+            let total: f64 = parts.iter().sum::<f64>() + 0.3;
+            let at: Vec<f64> = parts
+                .iter()
+                .scan(0.0, |sum, part| { *sum += part; Some(*sum / total * old.length()) })
+                .collect();
+            let added = network.split(0, &at);
+            prop_assert!(is_connected(&network));
+            prop_assert_eq!(&added, &(3..3 + at.len()).collect::<Vec<_>>());
+            // The parts in order are the first one and those at the end of the list.
+            let chain: Vec<usize> = [0].into_iter().chain(3..network.ways.len()).collect();
+            let mut points: Vec<Vector2<f64>> = Vec::new();
+            let (mut spot, mut length) = (0, 0.0);
+            for (number, &way) in chain.iter().enumerate() {
+                let way = &network.ways[way];
+                prop_assert_eq!(way.spots[0], spot);
+                prop_assert_eq!((way.points.len(), way.cells.len()), (way.along.len(), way.along.len()));
+                prop_assert_eq!(way.along[0], 0.0);
+                prop_assert!(way.points.len() > 1);
+                points.extend(&way.points[usize::from(number > 0)..]);
+                (spot, length) = (way.spots[1], length + way.length());
+                if let Some(at) = at.get(number) {
+                    prop_assert!((length - at).abs() <= 0.11, "at {} instead of {}", length, at);
+                    prop_assert_eq!(network.spots[spot].center, way.points[way.points.len() - 1]);
+                }
+            }
+            prop_assert_eq!((spot, points), (1, old.points));
+            prop_assert!((length - old.along[old.along.len() - 1]).abs() < 1e-9);
+            prop_assert_eq!((network.ways[1].spots, network.ways[2].spots), ([1, 2], [2, 0]));
+        }
+
+        /// Against the algorithm of Floyd and Warshall.
+        #[test]
+        fn paths_are_shortest(network in networks(), from in 0_usize..6, to in 0_usize..6) {
+            let count = network.spots.len();
+            let (from, to) = (from % count, to % count);
+            let mut distances = vec![vec![f64::INFINITY; count]; count];
+            for way in &network.ways {
+                let [one, other] = way.spots;
+                let length: f64 = way.points.windows(2).map(|pair| (pair[0] - pair[1]).norm()).sum();
+                distances[one][other] = distances[one][other].min(length);
+                distances[other][one] = distances[other][one].min(length);
+            }
+            for middle in 0..count {
+                for (one, other) in (0..count).flat_map(|one| (0..count).map(move |other| (one, other))) {
+                    let by = distances[one][middle] + distances[middle][other];
+                    distances[one][other] = distances[one][other].min(by);
+                }
+            }
+            let path = network.path(from, to);
+            if from == to || distances[from][to].is_infinite() {
+                prop_assert!(path.is_empty());
+            } else {
+                let (mut at, mut length) = (from, 0.0);
+                for arm in path {
+                    let spots = network.ways[arm.way].spots;
+                    prop_assert_eq!(spots[usize::from(arm.is_last)], at);
+                    at = spots[usize::from(!arm.is_last)];
+                    length += network.ways[arm.way].length();
+                }
+                prop_assert_eq!(at, to);
+                prop_assert!((length - distances[from][to]).abs() < 1e-9);
+            }
+        }
+    }
+}

@@ -1,5 +1,7 @@
 //! The visits of a route: the same star at every visit to one spot.
 
+use std::collections::BTreeSet;
+
 use hssh_metrics::Pose;
 use hssh_topology::Olp;
 use nalgebra::Vector2;
@@ -65,7 +67,7 @@ pub(crate) fn route(
     let is_passage: Vec<bool> =
         stars.iter().map(|star| star.as_ref().is_none_or(|star| star.kind() == PlaceKind::Passage)).collect();
     let stays = without_passages(walk(&network, &travelled, poses, options), &is_passage);
-    let stays = between_places(stays, &network, &out);
+    let stays = between_places(stays, poses.len() - 1, &network, &out);
     let mut number: Vec<Option<usize>> = vec![None; network.spots.len()];
     let mut route = Route::default();
     for stay in &stays {
@@ -106,18 +108,23 @@ fn without_passages(stays: Vec<Stay>, is_passage: &[bool]) -> Vec<Stay> {
     kept
 }
 
-/// The stays without the spots where the log just begins or ends, if nothing there looks like a place. If there is
-/// nothing else, they are the two ends of one way.
-fn between_places(mut stays: Vec<Stay>, network: &Network, out: &[WaysOut]) -> Vec<Stay> {
-    let is_open_end = |stay: &Stay, stays: &[Stay]| {
-        let visits = stays.iter().filter(|other| other.spot == stay.spot).count();
-        network.spots[stay.spot].arms.len() <= 1 && visits == 1 && !out[stay.spot].is_sighted
+/// The stays without the spots where the log just begins or ends, if nothing there looks like a place and the robot did
+/// not turn back there. If there is nothing else, they are the two ends of one way. `last` is the last scan.
+fn between_places(mut stays: Vec<Stay>, last: usize, network: &Network, out: &[WaysOut]) -> Vec<Stay> {
+    let is_end = |stay: &Stay| stay.scans.0 == 0 || stay.scans.1 == last;
+    let turned: BTreeSet<usize> = stays.iter().filter(|stay| !is_end(stay)).map(|stay| stay.spot).collect();
+    let is_open_end = |stay: &Stay| {
+        let spot = stay.spot;
+        is_end(stay)
+            && network.spots[spot].arms.len() <= 1
+            && !out[spot].is_sighted
+            && !turned.contains(&spot)
     };
-    if !stays.iter().all(|stay| is_open_end(stay, &stays)) {
-        if is_open_end(&stays[0], &stays) {
+    if !stays.iter().all(is_open_end) {
+        if stays.first().is_some_and(is_open_end) {
             stays.remove(0);
         }
-        if is_open_end(&stays[stays.len() - 1], &stays) {
+        if stays.last().is_some_and(is_open_end) {
             stays.pop();
         }
     }

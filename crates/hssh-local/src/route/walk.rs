@@ -200,3 +200,131 @@ fn positions(
     };
     poses.iter().map(position).collect()
 }
+
+#[cfg(test)]
+mod tests {
+    use super::super::drawn::{along, drawn, travelled};
+    use super::*;
+
+    /// The robot goes along a line through corners, with a scan every `every` points of 10 cm.
+    fn walked(network: &Network, corners: &[[f64; 2]], every: usize) -> Vec<Stay> {
+        let poses: Vec<Pose> = poses(corners, every);
+        let stays = walk(network, &travelled(network), &poses, &RouteOptions::default());
+        // Each stay has scans within the reach of its spot, and they follow one another.
+        for stay in &stays {
+            let off = |scan: usize| (poses[scan].translation() - network.spots[stay.spot].center).norm();
+            assert!(stay.scans.0 <= stay.scans.1);
+            assert!(off(stay.scans.0) < 1.6 + 0.1 * every as f64, "{stay:?}: {}", off(stay.scans.0));
+        }
+        assert!(stays.windows(2).all(|pair| pair[0].scans.1 <= pair[1].scans.0), "{stays:?}");
+        stays
+    }
+
+    fn poses(corners: &[[f64; 2]], every: usize) -> Vec<Pose> {
+        let points = along(corners);
+        let count = points.len();
+        let kept =
+            points.into_iter().enumerate().filter(|(index, _)| index % every == 0 || index + 1 == count);
+        kept.map(|(_, at)| Pose::new(at.x, at.y, 0.0)).collect()
+    }
+
+    /// An end of a way, as numbers.
+    type End = (usize, bool);
+
+    /// Spots, ends by which the robot came, and ends by which it left: the way and whether it is the last.
+    fn told(stays: &[Stay]) -> Vec<(usize, Option<End>, Option<End>)> {
+        let end = |end: Option<WayEnd>| end.map(|end| (end.way, end.is_last));
+        stays.iter().map(|stay| (stay.spot, end(stay.came), end(stay.left))).collect()
+    }
+
+    /// A spot in the middle, and spots 10 m to the west, east, north and south of it; ways lead outward.
+    fn plus() -> Network {
+        let spots = [[0.0, 0.0], [-10.0, 0.0], [10.0, 0.0], [0.0, 10.0], [0.0, -10.0]];
+        let lines: Vec<_> = (1..5).map(|spot| (0, spot, vec![])).collect();
+        drawn(&spots, &lines)
+    }
+
+    #[test]
+    fn across_a_crossing_and_back_from_an_end() {
+        let way = [[-10.0, 0.0], [0.0, 0.0], [0.0, 10.0], [0.0, 0.0], [10.0, 0.0]];
+        for every in [1, 3, 7] {
+            assert_eq!(
+                told(&walked(&plus(), &way, every)),
+                [
+                    (1, None, Some((0, true))),
+                    (0, Some((0, false)), Some((2, false))),
+                    (3, Some((2, true)), Some((2, true))),
+                    (0, Some((2, false)), Some((1, false))),
+                    (2, Some((1, true)), None),
+                ]
+            );
+        }
+    }
+
+    #[test]
+    fn who_turns_back_on_the_way_never_left() {
+        let way = [[-10.0, 0.0], [0.0, 0.0], [0.0, 5.0], [0.0, 0.0], [10.0, 0.0]];
+        let stays = walked(&plus(), &way, 2);
+        assert_eq!(
+            told(&stays),
+            [(1, None, Some((0, true))), (0, Some((0, false)), Some((1, false))), (2, Some((1, true)), None),]
+        );
+    }
+
+    #[test]
+    fn a_spot_that_no_scan_came_near_was_passed() {
+        let network = plus();
+        let before = poses(&[[-10.0, 0.0], [-3.0, 0.0]], 2);
+        let after = poses(&[[0.0, -3.0], [0.0, -10.0]], 2);
+        let poses: Vec<Pose> = before.into_iter().chain(after).collect();
+        let stays = walk(&network, &travelled(&network), &poses, &RouteOptions::default());
+        assert_eq!(
+            told(&stays),
+            [(1, None, Some((0, true))), (0, Some((0, false)), Some((3, false))), (4, Some((3, true)), None),]
+        );
+    }
+
+    #[test]
+    fn who_begins_on_a_way_comes_by_it() {
+        let stays = walked(&plus(), &[[-5.0, 0.0], [0.0, 0.0], [0.0, -5.0]], 2);
+        assert_eq!(told(&stays), [(0, Some((0, false)), None)]);
+    }
+
+    /// Two spots at opposite sides of a ring: way 0 leads from the left to the right above, way 1 below.
+    fn ring() -> Network {
+        let (above, below) = (vec![[-8.0, 6.0], [8.0, 6.0]], vec![[-8.0, -6.0], [8.0, -6.0]]);
+        drawn(&[[-8.0, 0.0], [8.0, 0.0]], &[(0, 1, above), (0, 1, below)])
+    }
+
+    const AROUND: [[f64; 2]; 7] =
+        [[-8.0, 0.0], [-8.0, 6.0], [8.0, 6.0], [8.0, 0.0], [8.0, -6.0], [-8.0, -6.0], [-8.0, 0.0]];
+
+    #[test]
+    fn around_a_ring_twice_and_back() {
+        let corners: Vec<[f64; 2]> =
+            AROUND.iter().chain(&AROUND[1..]).chain(AROUND.iter().rev().skip(1)).copied().collect();
+        let stays = walked(&ring(), &corners, 2);
+        assert_eq!(stays.iter().map(|stay| stay.spot).collect::<Vec<_>>(), [0, 1, 0, 1, 0, 1, 0]);
+        let ends = |spot: usize, way: usize| Some((way, spot == 1));
+        // Clockwise twice: above to the right, below to the left; then the same below first.
+        let ways = [0, 1, 0, 1, 1, 0];
+        for (index, way) in ways.into_iter().enumerate() {
+            let (from, to) = (stays[index], stays[index + 1]);
+            assert_eq!(told(&[from])[0].2, ends(from.spot, way), "{index}");
+            assert_eq!(told(&[to])[0].1, ends(to.spot, way), "{index}");
+        }
+    }
+
+    /// A ring with one spot: its way leads back to where it began.
+    #[test]
+    fn around_a_ring_with_one_spot() {
+        let network = drawn(&[[-8.0, 0.0]], &[(0, 0, AROUND[1..6].to_vec())]);
+        let there = walked(&network, &AROUND, 2);
+        assert_eq!(told(&there), [(0, None, Some((0, false))), (0, Some((0, true)), None)]);
+        let corners: Vec<[f64; 2]> = AROUND.iter().rev().copied().collect();
+        let back = walked(&network, &corners, 2);
+        assert_eq!(told(&back), [(0, None, Some((0, true))), (0, Some((0, false)), None)]);
+        let half: Vec<[f64; 2]> = AROUND[..3].iter().chain(AROUND[..2].iter().rev()).copied().collect();
+        assert_eq!(told(&walked(&network, &half, 2)), [(0, None, None)]);
+    }
+}

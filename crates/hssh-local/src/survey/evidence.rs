@@ -59,30 +59,11 @@ impl Evidence {
 
 /// The evidence for a closed track, and what there is to say about it.
 pub(super) fn evidence(track: &Track, closures: &[Closure]) -> (Evidence, Vec<SurveyWarning>) {
-    let at = |scan: usize| track.scans[scan].travelled;
     let (believed, contradicted): (Vec<Closure>, Vec<Closure>) =
         closures.iter().partition(|closure| closure.weight >= BELIEVED);
     let mut warnings = Vec::new();
-    let stretches = |closures: &[Closure]| -> Vec<Closure> {
-        let mut stretches: Vec<Closure> = Vec::new();
-        let mut last: Vec<Closure> = Vec::new();
-        for closure in closures {
-            let is_same = |other: &Closure| {
-                (at(other.later) - at(closure.later)).abs() < ONE_RETURN
-                    && (at(other.earlier) - at(closure.earlier)).abs() < ONE_RETURN
-            };
-            match last.iter_mut().find(|other| is_same(other)) {
-                Some(other) => *other = *closure,
-                None => {
-                    stretches.push(*closure);
-                    last.push(*closure);
-                }
-            }
-        }
-        stretches
-    };
-    let mut evidence = Evidence { returns: stretches(&believed).len(), ..Evidence::default() };
-    for closure in stretches(&contradicted) {
+    let mut evidence = Evidence { returns: stretches(track, &believed).len(), ..Evidence::default() };
+    for closure in stretches(track, &contradicted) {
         evidence.contradicted += 1;
         warnings.push(SurveyWarning::Contradicted { scan: closure.later + 1, earlier: closure.earlier + 1 });
     }
@@ -91,6 +72,26 @@ pub(super) fn evidence(track: &Track, closures: &[Closure]) -> (Evidence, Vec<Su
         warnings.push(SurveyWarning::Unconfirmed { scan: later + 1, earlier: earlier + 1 });
     }
     (evidence, warnings)
+}
+
+/// The first closure of each stretch along which one follows another.
+fn stretches(track: &Track, closures: &[Closure]) -> Vec<Closure> {
+    let at = |scan: usize| track.scans[scan].travelled;
+    let (mut first, mut last): (Vec<Closure>, Vec<Closure>) = (Vec::new(), Vec::new());
+    for closure in closures {
+        let is_same = |other: &Closure| {
+            (at(other.later) - at(closure.later)).abs() < ONE_RETURN
+                && (at(other.earlier) - at(closure.earlier)).abs() < ONE_RETURN
+        };
+        match last.iter_mut().find(|other| is_same(other)) {
+            Some(other) => *other = *closure,
+            None => {
+                first.push(*closure);
+                last.push(*closure);
+            }
+        }
+    }
+    first
 }
 
 /// Where the robot seems to be back, and no closure says so: one pair of scans for each stretch.
@@ -123,4 +124,128 @@ fn unconfirmed(track: &Track, believed: &[Closure]) -> Vec<(usize, usize)> {
         }
     }
     found
+}
+
+#[cfg(test)]
+mod tests {
+    use hssh_metrics::Pose;
+    use proptest::prelude::*;
+
+    use super::*;
+    use crate::matching::TrackedScan;
+
+    /// Scans every half metre along a line through corners.
+    fn track(corners: &[[f64; 2]]) -> Track {
+        let mut scans: Vec<TrackedScan> = Vec::new();
+        for pair in corners.windows(2) {
+            let steps = 2.0 * (pair[1][0] - pair[0][0]).hypot(pair[1][1] - pair[0][1]);
+            let at = |part: f64, axis: usize| pair[0][axis] + part * (pair[1][axis] - pair[0][axis]);
+            for step in 1..=steps as usize {
+                let part = step as f64 / steps;
+                let pose = Pose::new(at(part, 0), at(part, 1), 0.0);
+                let travelled = 0.5 * (scans.len() as f64 + 1.0);
+                scans.push(TrackedScan { pose, step: None, travelled });
+            }
+        }
+        Track { scans }
+    }
+
+    /// One scan for each half metre, so that `at` metres of travel are reached with the scan before `2 at`.
+    fn closure((earlier, later): (f64, f64), weight: f64) -> Closure {
+        let scan = |at: f64| (2.0 * at) as usize - 1;
+        let (earlier, later) = (scan(earlier), scan(later));
+        Closure { earlier, later, relative: Pose::IDENTITY, agreement: 1.0, weight }
+    }
+
+    /// Around a square of 30 m, and half of it again.
+    fn around() -> Track {
+        let corners =
+            [[0.0, 0.0], [30.0, 0.0], [30.0, 30.0], [0.0, 30.0], [0.0, 0.0], [30.0, 0.0], [30.0, 30.0]];
+        track(&corners)
+    }
+
+    /// The second time is 120 m after the first.
+    fn again(from: u32, to: u32) -> Vec<Closure> {
+        (from..to).step_by(5).map(f64::from).map(|at| closure((at, at + 120.0), 1.0)).collect()
+    }
+
+    fn counts(evidence: Evidence) -> (usize, usize, usize) {
+        (evidence.returns, evidence.contradicted, evidence.unconfirmed)
+    }
+
+    #[test]
+    fn closures_along_a_stretch_are_one_return() {
+        let (found, warnings) = evidence(&around(), &again(2, 60));
+        assert_eq!((counts(found), warnings), ((1, 0, 0), vec![]));
+        // A return at the beginning, and another one a long way on; between them nothing was seen.
+        let apart: Vec<Closure> = again(2, 12).into_iter().chain(again(45, 60)).collect();
+        let (found, warnings) = evidence(&around(), &apart);
+        assert_eq!(found.returns, 2);
+        assert_eq!(found.unconfirmed, warnings.len());
+        assert!(found.unconfirmed >= 1, "{warnings:?}");
+    }
+
+    #[test]
+    fn where_nothing_says_that_the_robot_is_back_it_is_said() {
+        let (found, warnings) = evidence(&around(), &[]);
+        // 60 m twice, told every 15 m.
+        assert_eq!(counts(found), (0, 0, warnings.len()));
+        assert!((4..=6).contains(&warnings.len()), "{warnings:?}");
+        for warning in warnings {
+            let SurveyWarning::Unconfirmed { scan, earlier } = warning else { panic!("{warning:?}") };
+            let between = scan as f64 / 2.0 - earlier as f64 / 2.0;
+            assert!((between - 120.0).abs() <= 1.5, "{scan} {earlier}");
+        }
+    }
+
+    #[test]
+    fn what_the_rest_contradicts_is_no_return() {
+        let mut closures = again(2, 60);
+        closures.extend([closure((10.0, 95.0), 0.01), closure((12.0, 97.0), 0.2)]);
+        closures.push(closure((15.0, 55.0), 0.1));
+        let (found, warnings) = evidence(&around(), &closures);
+        assert_eq!(counts(found), (1, 2, 0));
+        let expected =
+            [(190, 20), (110, 30)].map(|(scan, earlier)| SurveyWarning::Contradicted { scan, earlier });
+        assert_eq!(warnings, expected);
+        // It confirms nothing either.
+        let doubtful: Vec<Closure> =
+            again(2, 60).into_iter().map(|closure| Closure { weight: 0.1, ..closure }).collect();
+        let (found, _) = evidence(&around(), &doubtful);
+        assert!(found.returns == 0 && found.contradicted == 1 && found.unconfirmed >= 4, "{found:?}");
+    }
+
+    #[test]
+    fn who_never_comes_back_has_no_evidence() {
+        assert_eq!(
+            evidence(&track(&[[0.0, 0.0], [80.0, 0.0], [80.0, 50.0]]), &[]),
+            (Evidence::default(), vec![])
+        );
+        assert_eq!(Evidence::default().probability(&PerceptionModel::default()), 1.0);
+    }
+
+    proptest! {
+        #[test]
+        fn probabilities_are_in_range_and_fall_with_what_can_be_wrong(
+            returns in 0_usize..3000, contradicted in 0_usize..40, unconfirmed in 0_usize..40,
+            errors in prop::array::uniform3(0.0_f64..=1.0),
+        ) {
+            let model =
+                PerceptionModel { wrong_return: errors[0], contradicted: errors[1], unconfirmed: errors[2] };
+            let evidence = Evidence { returns, contradicted, unconfirmed };
+            let probability = evidence.probability(&model);
+            prop_assert!((0.0..=1.0).contains(&probability));
+            for more in [
+                Evidence { returns: returns + 1, ..evidence },
+                Evidence { contradicted: contradicted + 1, ..evidence },
+                Evidence { unconfirmed: unconfirmed + 1, ..evidence },
+            ] {
+                prop_assert!(more.probability(&model) <= probability);
+            }
+            let right = (1.0 - 0.25_f64).powi(2) * (1.0 - 0.5) * (1.0 - 0.125);
+            let model = PerceptionModel { wrong_return: 0.25, contradicted: 0.5, unconfirmed: 0.125 };
+            let two_one_one = Evidence { returns: 2, contradicted: 1, unconfirmed: 1 };
+            prop_assert!((two_one_one.probability(&model) - right).abs() < 1e-12);
+        }
+    }
 }

@@ -2,9 +2,11 @@
 #![allow(clippy::unwrap_used, clippy::print_stderr)] // tests fail by panicking, and say what they skip
 
 mod carmen;
+mod closing;
 mod local_map;
 mod matching;
 mod mutations;
 mod place;
+mod route;
 mod simulator;
 mod survey;

@@ -1,6 +1,6 @@
 //! Scan matching: it undoes the errors of odometry where walls tell, and knows where they do not.
 
-use hssh_local::{LaserLog, MatchOptions, Track, track};
+use hssh_local::{LaserLog, MatchOptions, Slip, Track, track};
 use hssh_metrics::Pose;
 
 use crate::simulator::{Walls, around, drive, log};
@@ -60,4 +60,29 @@ fn a_robot_that_sees_nothing_goes_by_odometry() {
     let track = tracked(&far, &poses);
     let last = track.scans[track.scans.len() - 1];
     assert!((last.travelled - 3.15).abs() < 1e-6, "{last:?}");
+}
+
+/// The wheels turned backwards for one step: odometry has it the wrong way round.
+#[test]
+fn a_reversed_step_is_found_out() {
+    let walls =
+        around(&[[[-2.0, -2.0], [14.0, 2.0]], [[10.0, -2.0], [14.0, 12.0]], [[2.0, -4.0], [4.0, 2.0]]]);
+    let poses = drive(&[[0.0, 0.0], [12.0, 0.0], [12.0, 9.0]], 0.25);
+    for reversed in [10, 25, 60] {
+        let mut odometry = vec![Pose::IDENTITY];
+        for (index, pair) in poses.windows(2).enumerate() {
+            let step = pair[0].between(pair[1]);
+            let sign = if index == reversed { -1.0 } else { 1.0 };
+            let step = Pose::new(sign * step.x, sign * step.y, step.theta);
+            odometry.push(odometry[odometry.len() - 1].compose(step));
+        }
+        let read = LaserLog::read(log(&walls, &poses, &odometry).as_bytes()).unwrap();
+        let off = |slip: Option<Slip>| {
+            let options = MatchOptions { slip, ..MatchOptions::default() };
+            error(&track(&read, &options, |_| ()), &poses)
+        };
+        let (believed, found) = (off(None), off(Some(Slip::default())));
+        assert!(believed.translation().norm() > 0.3, "{reversed}: {believed:?} without looking for it");
+        assert!(found.translation().norm() < 0.1 && found.theta.abs() < 0.02, "{reversed}: {found:?}");
+    }
 }

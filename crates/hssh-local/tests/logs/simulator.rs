@@ -2,6 +2,9 @@
 
 use hssh_local::Scan;
 use hssh_metrics::Pose;
+use rand::SeedableRng;
+use rand_chacha::ChaCha8Rng;
+use rand_distr::{Distribution, StandardNormal};
 
 /// Walls as segments between two points, in metres.
 pub(crate) type Walls = Vec<[[f64; 2]; 2]>;
@@ -94,4 +97,25 @@ pub(crate) fn drive(corners: &[[f64; 2]], step: f64) -> Vec<Pose> {
         }));
     }
     poses
+}
+
+/// What odometry says that drifts: `bend` radians for each metre, and noise.
+pub(crate) fn drifting(poses: &[Pose], bend: f64, seed: u64) -> Vec<Pose> {
+    let mut rng = ChaCha8Rng::seed_from_u64(seed);
+    let mut odometry = vec![Pose::IDENTITY];
+    for pair in poses.windows(2) {
+        let step = pair[0].between(pair[1]);
+        let length = step.translation().norm();
+        let mut noise = |sigma: f64| -> f64 {
+            let normal: f64 = StandardNormal.sample(&mut rng);
+            normal * sigma
+        };
+        let wrong = Pose::new(
+            step.x + noise(0.02) * length.sqrt(),
+            step.y + noise(0.01) * length.sqrt(),
+            step.theta + bend * length + noise(0.002) * length.sqrt(),
+        );
+        odometry.push(odometry[odometry.len() - 1].compose(wrong));
+    }
+    odometry
 }

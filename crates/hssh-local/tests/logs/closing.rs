@@ -1,0 +1,238 @@
+//! Closing loops: a drifting track comes out as the robot went, and places that only look alike stay apart.
+
+use hssh_local::{
+    ClosedTrack, ClosingOptions, Closure, LaserLog, MatchOptions, MotionNoise, Track, TrackedScan,
+    close_loops,
+};
+use hssh_metrics::Pose;
+
+use crate::simulator::{around, drifting, drive, log};
+
+/// A box of free space: its low and its high corner, in metres.
+type Space = [[f64; 2]; 2];
+
+/// Niches beside a corridor along the y axis with its middle at `x`, all on its right side: where along it they are,
+/// and how wide.
+fn niches(x: f64, at: &[(f64, f64)]) -> Vec<Space> {
+    at.iter().map(|&(y, width)| [[x, y], [x + 1.75, y + width]]).collect()
+}
+
+/// The track of a robot that believes its odometry.
+fn believing(odometry: &[Pose]) -> Track {
+    let noise =
+        MotionNoise { distance: 0.03, sideways: 0.02, heading: 0.004, turn: 0.004, floor: (0.003, 0.0005) };
+    let mut travelled = 0.0;
+    let scan = |index: usize| {
+        let step = index.checked_sub(1).map(|before| noise.motion(&odometry[before..=index]));
+        travelled += step.map_or(0.0, |step| step.mean.translation().norm());
+        TrackedScan { pose: odometry[0].between(odometry[index]), step, travelled }
+    };
+    Track { scans: (0..odometry.len()).map(scan).collect() }
+}
+
+struct Closed {
+    truth: Vec<Pose>,
+    track: Track,
+    closed: ClosedTrack,
+}
+
+impl Closed {
+    /// `track` makes a track of a log; odometry bends by `bend` radians for each metre.
+    fn new(spaces: &[Space], way: &[[f64; 2]], bend: f64, track: impl Fn(&LaserLog) -> Track) -> Self {
+        let truth = drive(way, 0.4);
+        let odometry = drifting(&truth, bend, 7);
+        let log = LaserLog::read(log(&around(spaces), &truth, &odometry).as_bytes()).unwrap();
+        let track = track(&log);
+        let closed = close_loops(&log, &track, &ClosingOptions::default(), |_| ()).unwrap();
+        Closed { truth, track, closed }
+    }
+
+    /// How far poses are off the truth at most, in metres, where they lie best on it.
+    fn error(&self, poses: &[Pose]) -> f64 {
+        let complex = |pose: &Pose| [pose.x, pose.y];
+        let mean = |poses: &[Pose]| {
+            let sum = poses.iter().map(complex).fold([0.0, 0.0], |sum, at| [sum[0] + at[0], sum[1] + at[1]]);
+            sum.map(|sum| sum / poses.len() as f64)
+        };
+        let (middle, true_middle) = (mean(poses), mean(&self.truth));
+        let from = |pose: &Pose, middle: [f64; 2]| [pose.x - middle[0], pose.y - middle[1]];
+        let pairs: Vec<[[f64; 2]; 2]> = poses
+            .iter()
+            .zip(&self.truth)
+            .map(|(pose, truth)| [from(pose, middle), from(truth, true_middle)])
+            .collect();
+        let sin: f64 = pairs.iter().map(|[a, b]| a[0] * b[1] - a[1] * b[0]).sum();
+        let cos: f64 = pairs.iter().map(|[a, b]| a[0] * b[0] + a[1] * b[1]).sum();
+        let (sin, cos) = (sin / sin.hypot(cos), cos / sin.hypot(cos));
+        let off =
+            |[a, b]: &[[f64; 2]; 2]| (cos * a[0] - sin * a[1] - b[0]).hypot(sin * a[0] + cos * a[1] - b[1]);
+        pairs.iter().map(off).fold(0.0, f64::max)
+    }
+
+    /// How far what a closure tells is off the truth, in the frame of the later scan.
+    fn off(&self, closure: &Closure) -> Pose {
+        self.between(closure).between(closure.relative)
+    }
+
+    /// Where the later scan of a closure was taken in truth, in the frame of the earlier one.
+    fn between(&self, closure: &Closure) -> Pose {
+        self.truth[closure.earlier].between(self.truth[closure.later])
+    }
+
+    fn tracked(&self) -> Vec<Pose> {
+        self.track.scans.iter().map(|scan| scan.pose).collect()
+    }
+}
+
+fn matched(log: &LaserLog) -> Track {
+    hssh_local::track(log, &MatchOptions::default(), |_| ())
+}
+
+fn believed(log: &LaserLog) -> Track {
+    believing(&log.trajectory)
+}
+
+/// A ring of corridors with niches, 24 m long and wide.
+fn ring() -> Vec<Space> {
+    [
+        vec![
+            [[-1.0, -1.0], [25.0, 1.0]],
+            [[-1.0, 23.0], [25.0, 25.0]],
+            [[-1.0, -1.0], [1.0, 25.0]],
+            [[23.0, -1.0], [25.0, 25.0]],
+            [[5.0, -1.75], [6.0, 0.0]],
+            [[11.0, -1.75], [13.0, 0.0]],
+            [[7.0, 23.0], [8.5, 25.75]],
+            [[16.0, 23.0], [18.0, 25.75]],
+        ],
+        niches(0.0, &[(5.0, 1.0), (9.0, 2.0), (16.0, 1.25)]),
+        niches(24.0, &[(3.0, 2.0), (10.0, 1.0), (14.0, 1.25), (19.0, 1.0)]),
+    ]
+    .concat()
+}
+
+/// Around the ring, from near a corner.
+const ONCE: [[f64; 2]; 5] = [[2.0, 0.0], [24.0, 0.0], [24.0, 24.0], [0.0, 24.0], [0.0, 0.0]];
+
+/// The same once more, and half of the first side.
+fn twice() -> Vec<[f64; 2]> {
+    [&ONCE[..], &ONCE[1..], &[[12.0, 0.0]]].concat()
+}
+
+#[test]
+fn a_track_that_drifts_by_metres_is_closed() {
+    let closed = Closed::new(&ring(), &twice(), 0.002, believed);
+    let (before, after) = (closed.error(&closed.tracked()), closed.error(&closed.closed.poses));
+    assert!(before > 2.0 && after < 0.2, "{before} m, closed {after} m");
+    assert!(closed.closed.closures.len() > 20, "{:?}", closed.closed.closures);
+    for closure in &closed.closed.closures {
+        let off = closed.off(closure);
+        assert!(off.translation().norm() < 0.2 && off.theta.abs() < 0.03, "{closure:?} is off by {off:?}");
+        assert!(
+            closed.between(closure).translation().norm() < ClosingOptions::default().stretch,
+            "{closure:?}"
+        );
+        assert!(closure.weight > 0.5, "{closure:?}");
+    }
+}
+
+#[test]
+fn what_scan_matching_leaves_is_closed() {
+    let closed = Closed::new(&ring(), &twice(), 0.02, matched);
+    let (before, after) = (closed.error(&closed.tracked()), closed.error(&closed.closed.poses));
+    assert!(before > 1.0 && after < 0.2, "{before} m, closed {after} m");
+    assert!(closed.closed.closures.len() > 20, "{:?}", closed.closed.closures);
+    for closure in &closed.closed.closures {
+        let off = closed.off(closure);
+        assert!(off.translation().norm() < 0.1 && off.theta.abs() < 0.02, "{closure:?} is off by {off:?}");
+        let apart = closed.between(closure).translation().norm();
+        assert!(apart < 1.0, "{closure:?} joins scans {apart} m apart");
+    }
+}
+
+/// Niches show only the one or the other side to those who pass, so that along a corridor little tells how far one
+/// is; across it everything does.
+#[test]
+fn the_opposite_direction_closes_too() {
+    let again = [[24.0, 0.0], [0.0, 0.0], [0.0, 24.0], [24.0, 24.0], [24.0, 2.0]];
+    let closed = Closed::new(&ring(), &[&ONCE[..], &again].concat(), 0.01, matched);
+    let (before, after) = (closed.error(&closed.tracked()), closed.error(&closed.closed.poses));
+    assert!(before > 0.5 && after < 0.2, "{before} m, closed {after} m");
+    let mut opposite = 0;
+    for closure in &closed.closed.closures {
+        let off = closed.off(closure);
+        assert!(off.x.abs() < 1.5 && off.y.abs() < 0.1 && off.theta.abs() < 0.03, "{closure:?}: {off:?}");
+        let between = closed.between(closure);
+        assert!(between.translation().norm() < ClosingOptions::default().stretch, "{closure:?}");
+        opposite += usize::from(between.theta.abs() > 3.0);
+    }
+    assert!(opposite > 10, "{opposite} of {:?}", closed.closed.closures);
+}
+
+/// Where niches are along corridors that look alike, and how wide.
+const ALIKE: [(f64, f64); 4] = [(4.0, 1.0), (7.0, 2.0), (11.0, 1.25), (15.0, 1.5)];
+
+/// Closures that tell of scans that they are where they are not.
+fn wrong(closed: &Closed) -> Vec<(&Closure, Pose)> {
+    let off = closed.closed.closures.iter().map(|closure| (closure, closed.between(closure)));
+    off.filter(|(closure, _)| closed.off(closure).translation().norm() > 1.5).collect()
+}
+
+/// Two corridors that look alike lead from another one, and the robot goes into the one and into the other.
+#[test]
+fn corridors_that_look_alike_stay_apart() {
+    let corridors = [[[-5.0, -1.0], [22.0, 1.0]], [[-1.0, -1.0], [1.0, 20.0]], [[6.0, -1.0], [8.0, 20.0]]];
+    let spaces = [&corridors[..], &niches(0.0, &ALIKE), &niches(7.0, &ALIKE)].concat();
+    let way =
+        [[-4.0, 0.0], [0.0, 0.0], [0.0, 18.0], [0.0, 0.0], [7.0, 0.0], [7.0, 18.0], [7.0, 0.0], [20.0, 0.0]];
+    for track in [believed, matched] {
+        let closed = Closed::new(&spaces, &way, 0.001, track);
+        assert_eq!(wrong(&closed), []);
+        let after = closed.error(&closed.closed.poses);
+        assert!(after < 0.5, "{after} m");
+    }
+}
+
+/// The robot goes up one corridor and down another one beside it.
+#[test]
+fn neighboring_corridors_that_look_alike_stay_apart() {
+    for apart in [4.0, 6.0] {
+        let corridors = [
+            [[-1.0, -1.0], [1.0, 25.0]],
+            [[apart - 1.0, -1.0], [apart + 1.0, 25.0]],
+            [[-1.0, 23.0], [apart + 1.0, 25.0]],
+        ];
+        let spaces = [&corridors[..], &niches(0.0, &ALIKE), &niches(apart, &ALIKE)].concat();
+        let way = [[0.0, 0.0], [0.0, 24.0], [apart, 24.0], [apart, 0.0]];
+        let closed = Closed::new(&spaces, &way, 0.001, believed);
+        assert_eq!(closed.closed.closures, []);
+    }
+}
+
+/// The robot comes after so long a way that it might have drifted from one corridor to the other, for all that it
+/// knows of itself.
+#[test]
+#[ignore = "what lies within the drift that is allowed for and looks alike is taken for the same"]
+fn corridors_that_look_alike_stay_apart_after_a_long_way() {
+    for (apart, detour) in [(4.0, 40.0), (6.0, 40.0), (8.0, 100.0)] {
+        let corridors = [
+            [[-1.0, -1.0], [1.0, 25.0]],
+            [[apart - 1.0, -1.0], [apart + 1.0, 25.0]],
+            [[-1.0, 23.0], [apart + detour + 1.0, 25.0]],
+            [[apart + detour - 1.0, -1.0], [apart + detour + 1.0, 25.0]],
+            [[apart - 1.0, -1.0], [apart + detour + 1.0, 1.0]],
+        ];
+        let spaces = [&corridors[..], &niches(0.0, &ALIKE), &niches(apart, &ALIKE)].concat();
+        let far = apart + detour;
+        let way = [[0.0, 0.0], [0.0, 24.0], [far, 24.0], [far, 0.0], [apart, 0.0], [apart, 22.0]];
+        for track in [believed, matched] {
+            let closed = Closed::new(&spaces, &way, 0.0003, track);
+            let (before, after) = (closed.error(&closed.tracked()), closed.error(&closed.closed.poses));
+            eprintln!(
+                "{apart} m apart: {} wrong closures; {before} m off, closed {after} m",
+                wrong(&closed).len()
+            );
+            assert_eq!(wrong(&closed), [], "{apart} m apart");
+        }
+    }
+}
