@@ -11,14 +11,17 @@ use crate::matching::{Cloud, MatchOptions, SurfacePoint, align};
 
 /// Two matches nearer than this to one another are one, in metres.
 const APART: f64 = 1.0;
-/// How far one submap can be slid on another along a corridor, in metres, standard deviation.
-const SLIDE: f64 = 5.0;
 /// A hit is on a wall if it is no farther off, in metres…
 const ON_WALL: f64 = 0.2;
 /// …and faces the same way, up to 25°.
 const FACING: f64 = 0.9;
 /// A window so small leaves no room for another match: metres.
 const SMALL: f64 = 1.2;
+
+/// How far from where the search found it a submap is aligned, standard deviations: metres and radians.
+const ALIGNED: (f64, f64) = (0.5, 0.1);
+/// The same for what nothing shows, as how far along a corridor without features.
+const UNKNOWN: (f64, f64) = (5.0, 0.5);
 
 /// One submap found in another.
 #[derive(Clone, Copy, Debug)]
@@ -60,7 +63,7 @@ pub(super) fn find(
             .is_none();
     let prior = UncertainPose {
         mean: best.pose,
-        covariance: Covariance::from_standard_deviations(5.0, 5.0, 0.5).expect("positive"),
+        covariance: Covariance::from_standard_deviations(ALIGNED.0, ALIGNED.0, ALIGNED.1).expect("positive"),
     };
     let matching = MatchOptions { floor: (0.0, 0.0), hits_per_observation: 20.0, ..MatchOptions::default() };
     let (cloud, surfaces) = (one.cloud(keyframes), other.surfaces(keyframes));
@@ -73,13 +76,7 @@ pub(super) fn find(
     if slide.is_some() && !is_expected {
         return None;
     }
-    let floor = Vector3::new(options.floor.0, options.floor.0, options.floor.1).map(|sigma| sigma * sigma);
-    let along = slide.map_or(Matrix3::zeros(), |axis| {
-        let axis = SLIDE * Vector3::new(axis.x, axis.y, 0.0);
-        axis * axis.transpose()
-    });
-    let covariance =
-        Covariance::new(fine.covariance.matrix() + Matrix3::from_diagonal(&floor) + along).ok()?;
+    let covariance = as_shown(&fine.covariance, slide, options)?;
     let relative = UncertainPose { mean: fine.mean, covariance };
     Some(Match {
         query,
@@ -121,6 +118,24 @@ fn slide(
     (least < least_crossing * scatter.trace()).then(|| eigen.eigenvectors.column(axis).into_owned())
 }
 
+/// How well the walls show a pose that was aligned: without what the alignment believed before, for where the search
+/// began is no observation, and without what cannot be told along the direction in which all walls lead.
+fn as_shown(
+    aligned: &Covariance,
+    slide: Option<Vector2<f64>>,
+    options: &ClosingOptions,
+) -> Option<Covariance> {
+    let precision = |(across, around): (f64, f64)| {
+        Matrix3::from_diagonal(&Vector3::new(across, across, around).map(|sigma| sigma.powi(-2)))
+    };
+    let information = aligned.information().matrix() - precision(ALIGNED) + precision(UNKNOWN);
+    let floor = Vector3::new(options.floor.0, options.floor.0, options.floor.1).map(|sigma| sigma * sigma);
+    let along = slide.map_or(Vector3::zeros(), |axis| UNKNOWN.0 * Vector3::new(axis.x, axis.y, 0.0));
+    let covariance =
+        information.cholesky()?.inverse() + Matrix3::from_diagonal(&floor) + along * along.transpose();
+    Covariance::new(0.5 * (covariance + covariance.transpose())).ok()
+}
+
 /// Of the walls of each submap that lie where the other one has seen something, which part the other one has
 /// too; and how many metres of wall both have.
 fn agreement(one: &Submap, other: &Submap, placed: Pose) -> (f64, f64) {
@@ -134,4 +149,21 @@ fn agreement(one: &Submap, other: &Submap, placed: Pose) -> (f64, f64) {
     // Every second cell of a wall is kept.
     let overlap = there.1.min(back.1) as f64 * 2.0 * CELL;
     (near as f64 / seen.max(1) as f64, overlap)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Walls along the x axis fix y and the heading to a centimetre and a hundredth of a radian, and x not at all.
+    #[test]
+    fn what_the_walls_do_not_show_is_not_known() {
+        let aligned = Matrix3::from_diagonal(&Vector3::new(1.0 / 0.25, 1e4 + 1.0 / 0.25, 1e4 + 1.0 / 0.01));
+        let aligned = Covariance::new(aligned.try_inverse().unwrap()).unwrap();
+        let options = ClosingOptions { floor: (0.03, 0.0), ..ClosingOptions::default() };
+        let shown = as_shown(&aligned, &options).unwrap();
+        let sigmas = shown.matrix().diagonal().map(f64::sqrt);
+        assert!((sigmas.x - 5.0).abs() < 0.01, "{sigmas}");
+        assert!((sigmas.y - 0.01_f64.hypot(0.03)).abs() < 1e-4 && (sigmas.z - 0.01).abs() < 1e-4, "{sigmas}");
+    }
 }
