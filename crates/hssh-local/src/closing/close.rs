@@ -2,7 +2,7 @@
 //! believed to be, accept chains of matches, and solve the pose graph anew where they move it.
 
 use hssh_metrics::{
-    Edge, GraphError, Kernel, Options, Pose, PoseGraph, PoseId, SolveError, solve, solve_robustly,
+    Covariance, Edge, GraphError, Kernel, Options, Pose, PoseGraph, PoseId, SolveError, solve, solve_robustly,
 };
 
 use super::chain::{agree, told};
@@ -37,6 +37,9 @@ pub struct Closure {
     pub later: usize,
     /// The later pose in the frame of the earlier one, as the laser shows it.
     pub relative: Pose,
+    /// The covariance of these three numbers, in the frame of the earlier pose: along a corridor without features nothing is
+    /// known.
+    pub covariance: Covariance,
     /// Of the walls of each that the other has seen, the part that is where the other has them.
     pub agreement: f64,
     /// By which factor it counts in the end: near 0 if the rest contradicts it.
@@ -294,6 +297,7 @@ impl<'a> Closing<'a> {
             earlier: scan(found.reference),
             later: scan(found.query),
             relative: found.relative.mean,
+            covariance: found.relative.covariance,
             agreement: found.agreement,
             weight,
         });

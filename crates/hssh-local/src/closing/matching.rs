@@ -161,7 +161,7 @@ mod tests {
         let aligned = Matrix3::from_diagonal(&Vector3::new(1.0 / 0.25, 1e4 + 1.0 / 0.25, 1e4 + 1.0 / 0.01));
         let aligned = Covariance::new(aligned.try_inverse().unwrap()).unwrap();
         let options = ClosingOptions { floor: (0.03, 0.0), ..ClosingOptions::default() };
-        let shown = as_shown(&aligned, &options).unwrap();
+        let shown = as_shown(&aligned, None, &options).unwrap();
         let sigmas = shown.matrix().diagonal().map(f64::sqrt);
         assert!((sigmas.x - 5.0).abs() < 0.01, "{sigmas}");
         assert!((sigmas.y - 0.01_f64.hypot(0.03)).abs() < 1e-4 && (sigmas.z - 0.01).abs() < 1e-4, "{sigmas}");

@@ -128,7 +128,7 @@ fn unconfirmed(track: &Track, believed: &[Closure]) -> Vec<(usize, usize)> {
 
 #[cfg(test)]
 mod tests {
-    use hssh_metrics::Pose;
+    use hssh_metrics::{Covariance, Pose};
     use proptest::prelude::*;
 
     use super::*;
@@ -154,7 +154,8 @@ mod tests {
     fn closure((earlier, later): (f64, f64), weight: f64) -> Closure {
         let scan = |at: f64| (2.0 * at) as usize - 1;
         let (earlier, later) = (scan(earlier), scan(later));
-        Closure { earlier, later, relative: Pose::IDENTITY, agreement: 1.0, weight }
+        let covariance = Covariance::from_standard_deviations(0.1, 0.1, 0.01).unwrap();
+        Closure { earlier, later, relative: Pose::IDENTITY, covariance, agreement: 1.0, weight }
     }
 
     /// Around a square of 30 m, and half of it again.

@@ -4,7 +4,7 @@ use hssh_local::{
     ClosedTrack, ClosingOptions, Closure, LaserLog, MatchOptions, MotionNoise, Track, TrackedScan,
     close_loops,
 };
-use hssh_metrics::Pose;
+use hssh_metrics::{Pose, wrap_angle};
 
 use crate::simulator::{around, drifting, drive, log};
 
@@ -74,6 +74,13 @@ impl Closed {
         self.between(closure).between(closure.relative)
     }
 
+    /// The same in standard deviations of the closure: along a corridor without features, nothing is known.
+    fn sigmas(&self, closure: &Closure) -> f64 {
+        let (truth, told) = (self.between(closure), closure.relative);
+        let off = nalgebra::vector![told.x - truth.x, told.y - truth.y, wrap_angle(told.theta - truth.theta)];
+        off.dot(&(closure.covariance.information().matrix() * off)).sqrt()
+    }
+
     /// Where the later scan of a closure was taken in truth, in the frame of the earlier one.
     fn between(&self, closure: &Closure) -> Pose {
         self.truth[closure.earlier].between(self.truth[closure.later])
@@ -127,10 +134,10 @@ fn a_track_that_drifts_by_metres_is_closed() {
     assert!(closed.closed.closures.len() > 20, "{:?}", closed.closed.closures);
     for closure in &closed.closed.closures {
         let off = closed.off(closure);
-        assert!(off.translation().norm() < 0.2 && off.theta.abs() < 0.03, "{closure:?} is off by {off:?}");
+        assert!(closed.sigmas(closure) < 5.0 && off.theta.abs() < 0.03, "{closure:?} is off by {off:?}");
         assert!(
-            closed.between(closure).translation().norm() < ClosingOptions::default().stretch,
-            "{closure:?}"
+            closed.between(closure).translation().norm() < 2.0 * ClosingOptions::default().stretch,
+            "{closure:?} joins submaps that have nothing in common"
         );
         assert!(closure.weight > 0.5, "{closure:?}");
     }
@@ -140,13 +147,11 @@ fn a_track_that_drifts_by_metres_is_closed() {
 fn what_scan_matching_leaves_is_closed() {
     let closed = Closed::new(&ring(), &twice(), 0.02, matched);
     let (before, after) = (closed.error(&closed.tracked()), closed.error(&closed.closed.poses));
-    assert!(before > 1.0 && after < 0.2, "{before} m, closed {after} m");
+    assert!(before > 0.3 && after < 0.1, "{before} m, closed {after} m");
     assert!(closed.closed.closures.len() > 20, "{:?}", closed.closed.closures);
     for closure in &closed.closed.closures {
         let off = closed.off(closure);
-        assert!(off.translation().norm() < 0.1 && off.theta.abs() < 0.02, "{closure:?} is off by {off:?}");
-        let apart = closed.between(closure).translation().norm();
-        assert!(apart < 1.0, "{closure:?} joins scans {apart} m apart");
+        assert!(closed.sigmas(closure) < 5.0 && off.theta.abs() < 0.02, "{closure:?} is off by {off:?}");
     }
 }
 
@@ -157,11 +162,11 @@ fn the_opposite_direction_closes_too() {
     let again = [[24.0, 0.0], [0.0, 0.0], [0.0, 24.0], [24.0, 24.0], [24.0, 2.0]];
     let closed = Closed::new(&ring(), &[&ONCE[..], &again].concat(), 0.01, matched);
     let (before, after) = (closed.error(&closed.tracked()), closed.error(&closed.closed.poses));
-    assert!(before > 0.5 && after < 0.2, "{before} m, closed {after} m");
+    assert!(before > 0.2 && after < 0.1, "{before} m, closed {after} m");
     let mut opposite = 0;
     for closure in &closed.closed.closures {
         let off = closed.off(closure);
-        assert!(off.x.abs() < 1.5 && off.y.abs() < 0.1 && off.theta.abs() < 0.03, "{closure:?}: {off:?}");
+        assert!(closed.sigmas(closure) < 5.0 && off.theta.abs() < 0.03, "{closure:?}: {off:?}");
         let between = closed.between(closure);
         assert!(between.translation().norm() < ClosingOptions::default().stretch, "{closure:?}");
         opposite += usize::from(between.theta.abs() > 3.0);
@@ -175,7 +180,7 @@ const ALIKE: [(f64, f64); 4] = [(4.0, 1.0), (7.0, 2.0), (11.0, 1.25), (15.0, 1.5
 /// Closures that tell of scans that they are where they are not.
 fn wrong(closed: &Closed) -> Vec<(&Closure, Pose)> {
     let off = closed.closed.closures.iter().map(|closure| (closure, closed.between(closure)));
-    off.filter(|(closure, _)| closed.off(closure).translation().norm() > 1.5).collect()
+    off.filter(|(closure, _)| closed.sigmas(closure) > 8.0).collect()
 }
 
 /// Two corridors that look alike lead from another one, and the robot goes into the one and into the other.

@@ -80,12 +80,24 @@ fn local_maps_resemble_themselves() {
     assert!(resemblance(first, again, phi).unwrap().log_likelihood_ratio > 5.0);
 }
 
+/// Nothing along it is a place, so that its two ends are all there is.
 #[test]
-fn a_corridor_has_no_places() {
+fn a_corridor_is_one_way() {
     let walls = around(&[[[-30.0, -1.0], [40.0, 1.0]]]);
     let poses = drive(&[[0.0, 0.0], [10.0, 0.0]], 0.5);
-    let error = surveyed(&log(&walls, &poses, &poses)).unwrap_err();
-    assert!(error.to_string().starts_with("no place was found along 10 m of way"), "{error}");
+    let survey = surveyed(&log(&walls, &poses, &poses)).unwrap();
+    let ways: Vec<usize> = survey.visits.iter().map(|visit| visit.star.gateways().count()).collect();
+    assert_eq!((survey.visits.len(), survey.travels.len()), (2, 1));
+    assert!(ways.iter().all(|&ways| ways == 1), "{ways:?}");
+    assert!(survey.exploration().is_ok());
+}
+
+#[test]
+fn a_robot_that_stands_still_is_at_one_place() {
+    let walls = around(&[[[-30.0, -1.0], [40.0, 1.0]]]);
+    let poses = vec![Pose::IDENTITY; 3];
+    let survey = surveyed(&log(&walls, &poses, &poses)).unwrap();
+    assert_eq!((survey.visits.len(), survey.travels.len()), (1, 0));
 }
 
 /// A corridor with a spur of 13 m, into which the robot goes and comes back.
