@@ -50,7 +50,7 @@ impl Default for ClosingOptions {
             submap_distance: 2.5,
             reach: 10.0,
             least_travel: 15.0,
-            window: (0.6, 0.02),
+            window: (0.6, 0.015),
             heading_window: (0.06, 0.002),
             largest_window: (12.0, 0.5),
             least_score: 0.4,
