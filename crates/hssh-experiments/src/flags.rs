@@ -78,9 +78,10 @@ xflags::xflags! {
             /// The folder that contains `gridmap/` and `logs/`.
             required data: PathBuf
         }
-        /// Surveys real laser logs and compares what comes out with what is known of the buildings.
+        /// Surveys and maps real laser logs, compares what comes out with what is known of the buildings, and fails if it is
+        /// worse than it should be.
         cmd log {
-            /// The folder that contains `logs/` and `gridmap/`.
+            /// The folder that contains `logs/` and `relations/`.
             required data: PathBuf
         }
         /// Drives a simulated robot through seven built floors and a real one: control level, survey and map against

@@ -15,6 +15,7 @@ mod peers;
 mod pose_graphs;
 mod robot;
 mod root;
+mod score;
 mod table;
 
 use std::error::Error;
