@@ -4,6 +4,7 @@
 mod aces;
 mod bench;
 mod branching;
+mod calibrate;
 mod causal;
 mod experiment;
 #[allow(unreachable_pub)] // generated
@@ -48,6 +49,7 @@ fn run(command: ExperimentsCmd) -> Result<(), Box<dyn Error>> {
         }
         ExperimentsCmd::Grids(flags) => grids::run(&flags),
         ExperimentsCmd::Log(flags) => log::run(&flags.data),
+        ExperimentsCmd::Calibrate(flags) => calibrate::run(&flags),
         ExperimentsCmd::Robot(flags) => robot::run(&flags),
     }
 }
