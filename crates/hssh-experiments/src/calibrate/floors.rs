@@ -15,12 +15,18 @@ pub(super) struct Ground {
     pub(super) width: f64,
 }
 
+/// A floor, or why it cannot be built.
+type Made = Result<World, Box<dyn Error>>;
+
+/// How a floor is made, and how another one for each seed.
+type Plan = fn() -> Made;
+type RandomPlan = fn(u64) -> Made;
+
 /// Floors with parts that look the same, and how they are made.
-const REPEATED: [(&str, fn() -> Result<World, Box<dyn Error>>); 4] =
+const REPEATED: [(&str, Plan); 4] =
     [("ladder", ladder), ("wings", wings), ("offices-alike", offices_alike), ("halls-alike", halls_alike)];
 /// Floors that are another one for each seed.
-const RANDOM: [(&str, fn(u64) -> Result<World, Box<dyn Error>>); 2] =
-    [("any-office", any_office), ("any-planar", any_planar)];
+const RANDOM: [(&str, RandomPlan); 2] = [("any-office", any_office), ("any-planar", any_planar)];
 
 /// The names of all kinds of floors.
 pub(super) fn names() -> Vec<String> {
@@ -42,12 +48,12 @@ pub(super) fn ground(name: &str, seed: u64) -> Result<Ground, Box<dyn Error>> {
 }
 
 /// Two corridors with six rungs between them, all alike.
-fn ladder() -> Result<World, Box<dyn Error>> {
+fn ladder() -> Made {
     Ok(grid(2, 6, 13.0)?)
 }
 
 /// A corridor on which two wings lie, each a ring with a spur, which look the same.
-fn wings() -> Result<World, Box<dyn Error>> {
+fn wings() -> Made {
     let wing = |x: f64| [(x, 0.0), (x + 18.0, 0.0), (x + 18.0, 14.0), (x, 14.0), (x, 26.0)];
     let points: Vec<(f64, f64)> =
         [(-13.0, 0.0)].into_iter().chain(wing(0.0)).chain(wing(36.0)).chain([(67.0, 0.0)]).collect();
@@ -70,7 +76,7 @@ fn wings() -> Result<World, Box<dyn Error>> {
 }
 
 /// A ring on whose long side lie four offices with doors all alike.
-fn offices_alike() -> Result<World, Box<dyn Error>> {
+fn offices_alike() -> Made {
     let mut points: Vec<(f64, f64)> = (0..6).map(|door| (f64::from(door) * 12.0, 0.0)).collect();
     points.extend((1..5).map(|door| (f64::from(door) * 12.0, -11.0)));
     points.extend([(60.0, 15.0), (0.0, 15.0)]);
@@ -81,7 +87,7 @@ fn offices_alike() -> Result<World, Box<dyn Error>> {
 }
 
 /// Three square rings in a row, joined by corridors as long as their sides: turned by right angles all is alike.
-fn halls_alike() -> Result<World, Box<dyn Error>> {
+fn halls_alike() -> Made {
     let mut points = Vec::new();
     let mut corridors = Vec::new();
     for hall in 0..3_usize {
@@ -93,17 +99,17 @@ fn halls_alike() -> Result<World, Box<dyn Error>> {
     network(&points, &corridors)
 }
 
-fn any_office(seed: u64) -> Result<World, Box<dyn Error>> {
+fn any_office(seed: u64) -> Made {
     let plan = OfficePlan { rows: 3, columns: 3, loops: 0.6, doors: 0, spacing: 16.0 };
     Ok(offices(&plan, seed)?)
 }
 
-fn any_planar(seed: u64) -> Result<World, Box<dyn Error>> {
+fn any_planar(seed: u64) -> Made {
     Ok(random_planar(7, 0.4, 24.0, seed)?)
 }
 
 /// Straight corridors between points.
-fn network(points: &[(f64, f64)], corridors: &[[usize; 2]]) -> Result<World, Box<dyn Error>> {
+fn network(points: &[(f64, f64)], corridors: &[[usize; 2]]) -> Made {
     let crossing = |(index, &(x, y)): (usize, &(f64, f64))| Crossing {
         name: index.to_string(),
         position: Point::new(x, y),

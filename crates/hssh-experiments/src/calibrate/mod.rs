@@ -13,7 +13,6 @@ mod variant;
 use std::error::Error;
 use std::fs::File;
 use std::path::Path;
-use std::sync::atomic::{AtomicUsize, Ordering};
 use std::time::Instant;
 
 use hssh_local::LaserLog;
@@ -26,8 +25,6 @@ use variant::Variant;
 
 /// Drives if no number is given.
 const DRIVES: usize = 500;
-/// After so many drives it is told how many are done.
-const TOLD: usize = 20;
 /// A wrong map with a greater probability is told one by one.
 const CONFIDENT: f64 = 0.9;
 
@@ -88,15 +85,11 @@ fn on_logs(data: &Path) -> Result<Vec<RealRun>, Box<dyn Error>> {
     Ok(tasks.into_par_iter().map(run).collect())
 }
 
-/// Makes drives, and says on the way how many are done.
+/// Makes drives, and says on the way what became of each.
 fn on_drives(tasks: Vec<Task>) -> Vec<Driven> {
-    let (all, done) = (tasks.len(), AtomicUsize::new(0));
     let run = |task: Task| {
         let driven = task.run();
-        let done = done.fetch_add(1, Ordering::Relaxed) + 1;
-        if done.is_multiple_of(TOLD) {
-            eprintln!("{done} of {all} drives");
-        }
+        eprintln!("{}", account(&driven));
         driven
     };
     tasks.into_par_iter().map(run).collect()
