@@ -78,10 +78,23 @@ xflags::xflags! {
             /// The folder that contains `gridmap/` and `logs/`.
             required data: PathBuf
         }
-        /// Surveys real laser logs and compares what comes out with what is known of the buildings.
+        /// Surveys and maps real laser logs, compares what comes out with what is known of the buildings, and fails if it is
+        /// worse than it should be.
         cmd log {
-            /// The folder that contains `logs/` and `gridmap/`.
+            /// The folder that contains `logs/` and `relations/`.
             required data: PathBuf
+        }
+        /// Measures how often a survey errs, on real logs and simulated drives, and whether probabilities of maps are what
+        /// they say.
+        cmd calibrate {
+            /// The folder that contains `logs/`.
+            required data: PathBuf
+            /// How many drives are simulated; 500 if not given.
+            optional --drives count: usize
+            /// Only this one, counted from 0; its account instead of tables.
+            optional --drive number: usize
+            /// With --drive: the file to write its log into.
+            optional --out file: PathBuf
         }
         /// Drives a simulated robot through seven built floors and a real one: control level, survey and map against
         /// the truth.

@@ -1,112 +1,75 @@
-//! Surveys real laser logs and compares what comes out with what is known of the buildings.
+//! Surveys and maps real laser logs, compares what comes out with what is known of the buildings, and refuses what is
+//! worse than it should be.
 
 mod drift;
-mod matching;
-mod truth;
+mod figures;
+mod table;
 
 use std::error::Error;
-use std::fs::File;
-use std::path::Path;
-use std::time::Instant;
+use std::path::{Path, PathBuf};
 
-use hssh_causal::Exploration;
-use hssh_local::{
-    LaserLog, LocalMapOptions, MatchOptions, Survey, SurveyOptions, global_map, global_poses,
-    mean_wall_distance, read_map, survey, track, visit_frames,
-};
+use hssh_local::{MatchOptions, track};
 use hssh_metrics::Pose;
-use hssh_search::{Mapper, Placement, RankedMap, place_by_odometry};
-use hssh_topology::{Axioms, Position};
 
-use truth::Truth;
+use crate::score::Relations;
+use figures::{Figures, Mapping};
 
-/// Prints what comes out of each log in the folder that contains `logs/` and `gridmap/`.
+/// The logs.
+pub(crate) const LOGS: [&str; 6] = ["aces", "intel", "freiburg-079", "belgioioso", "freiburg-101", "fhw"];
+/// Those with relations that were verified by hand, and the names of these.
+const VERIFIED: [(&str, &str); 2] = [("intel", "intel"), ("freiburg-079", "fr079")];
+
+/// A log under its file.
+pub(crate) fn file(data: &Path, name: &str) -> PathBuf {
+    data.join(format!("logs/{name}.log.gz"))
+}
+
+/// Prints what comes out of each log in the folder that contains `logs/` and `relations/`.
+///
+/// # Errors
+/// If a file cannot be read, or something is worse than it should be.
 pub(crate) fn run(data: &Path) -> Result<(), Box<dyn Error>> {
-    for name in ["aces", "intel", "freiburg-079"] {
-        println!("{name}");
-        let started = Instant::now();
-        let log = LaserLog::read(File::open(data.join(format!("logs/{name}.log.gz")))?)?;
-        let read = started.elapsed();
-        let found = match survey(&log, &SurveyOptions::default(), |_, _| ()) {
-            Ok(found) => found,
-            Err(error) => {
-                println!("  {error}");
-                continue;
-            }
-        };
-        let exploration = found.exploration()?;
-        let all = started.elapsed();
-        println!(
-            "  {} scans of {} beams, read in {:.0} ms; from file to exploration in {:.2} s, {} warnings",
-            log.scans.len(),
-            log.beams(),
-            read.as_secs_f64() * 1e3,
-            all.as_secs_f64(),
-            log.warnings.len() + found.warnings.len()
-        );
-        let started = Instant::now();
-        let tracked = track(&log, &MatchOptions::default(), |_| ());
-        let rate = log.scans.len() as f64 / started.elapsed().as_secs_f64();
-        println!("  matching: {rate:.0} scans/s\n{}", drift::table(&log, &tracked));
-        if name == "aces" {
-            let truth = Truth::read(&data.join("logs/aces-topology.txt"))?;
-            println!("{}", truth.score(&found));
-            println!("{}", matching::pairs(&found, &truth));
-            println!("{}", matching::among_optimal(&found, &exploration)?);
-            println!("{}", matching::gain(&found, &exploration)?);
-            println!("{}", mapped(&log, &found, &exploration, &data.join("gridmap/aces.yaml"))?);
-        } else {
-            println!("{}", shapes(&found));
+    let (mut all, mut verified, mut drifts) = (Vec::new(), Vec::new(), Vec::new());
+    for name in LOGS {
+        let path = file(data, name);
+        if !path.is_file() {
+            println!("{name}: skipped, there is no {}", path.display());
+            continue;
         }
+        let mapping = Mapping::of(&path).map_err(|error| format!("{name}: {error}"))?;
+        let tracked = track(mapping.log(), &MatchOptions::default(), |_| ());
+        let track: Vec<Pose> = tracked.scans.iter().map(|scan| scan.pose).collect();
+        all.push(Figures::of(name, &mapping, &track));
+        drifts.extend(drift::rows(name, mapping.log(), &tracked));
+        verified.extend(relations(data, name, &mapping, &track)?);
     }
-    Ok(())
+    println!("{}", table::of_logs(&all));
+    println!("{}", table::of_relations(&verified));
+    println!("{}", table::of_drift(&drifts));
+    let faults: Vec<String> = all.iter().flat_map(Figures::faults).collect();
+    if faults.is_empty() { Ok(()) } else { Err(faults.join("; ").into()) }
 }
 
-/// The stars of the visits in order, and how many ways out they have.
-fn shapes(survey: &Survey) -> String {
-    let ways: Vec<String> =
-        survey.visits.iter().map(|visit| visit.star.gateways().count().to_string()).collect();
-    format!("  {} visits; ways out: {}", ways.len(), ways.join(" "))
+/// How far the trajectories of a log are from relations that were verified by hand.
+struct Verified {
+    name: &'static str,
+    relations: usize,
+    /// Of raw odometry, the track and the closed track: metres and radians; the last is not there without a survey.
+    errors: [Option<[f64; 2]>; 3],
 }
 
-/// The maps that planarity leaves, and how the best looks as a grid beside the reference.
-fn mapped(
-    log: &LaserLog,
-    survey: &Survey,
-    exploration: &Exploration,
-    reference: &Path,
-) -> Result<String, Box<dyn Error>> {
-    let axioms = Axioms { max_genus: Some(0), ..Axioms::default() };
-    let mapper = Mapper::builder().axioms(axioms).explain(exploration)?;
-    let (report, maps) = mapper.answer(1);
-    let Some(best) = maps.first() else { return Ok("  no planar map explains the exploration".to_owned()) };
-    let mut text = format!(
-        "  {} planar maps explain it, {} of them optimal; the best: {} places, {} paths, closed: {}",
-        report.finals.final_maps, report.finals.optimal, best.measure.places, best.measure.paths, best.closed
-    );
-    if let Some((placement, positions)) = placed(&mapper, best, exploration)? {
-        let frames = visit_frames(&survey.visits, &positions, placement.graph.poses());
-        let poses = global_poses(survey, &frames);
-        let grid = global_map(log, &poses, &LocalMapOptions::default())?;
-        let corrected: Vec<Pose> = log.scans.iter().map(|scan| scan.corrected).collect();
-        let frame = drift::best_fit(&poses, &corrected);
-        let off = drift::root_mean_square(&poses, &corrected, frame);
-        text += &format!("\n  placed: χ² {:.2}; poses {off:.2} m from the corrected ones", placement.chi2);
-        if let Some(distance) = mean_wall_distance(&grid, &read_map(reference)?, frame) {
-            text += &format!(", walls {distance:.2} m from those of the reference on the mean");
-        }
-    }
-    Ok(text)
-}
-
-/// Where the places of a map are, and where the robot was in it.
-type Placed = (Placement, Vec<Position>);
-
-fn placed(
-    mapper: &Mapper,
-    map: &RankedMap,
-    exploration: &Exploration,
-) -> Result<Option<Placed>, Box<dyn Error>> {
-    let positions = mapper.visits(map.node);
-    Ok(place_by_odometry(exploration, &positions)?.map(|placement| (placement, positions)))
+fn relations(
+    data: &Path,
+    name: &'static str,
+    mapping: &Mapping,
+    track: &[Pose],
+) -> Result<Option<Verified>, Box<dyn Error>> {
+    let known = VERIFIED.iter().find(|(log, _)| *log == name);
+    let file_of = |known: &(&str, &str)| data.join(format!("relations/{}.odom.relations", known.1));
+    let Some(path) = known.map(file_of).filter(|path| path.is_file()) else { return Ok(None) };
+    let relations = Relations::read(&path, &file(data, name), mapping.log())?;
+    let closed = mapping.closed();
+    let trajectories = [Some(mapping.raw()), Some(track.to_vec()), closed];
+    let errors = trajectories.map(|poses| poses.map(|poses| relations.errors(&poses)));
+    Ok(Some(Verified { name, relations: relations.len(), errors }))
 }

@@ -4,6 +4,7 @@
 mod aces;
 mod bench;
 mod branching;
+mod calibrate;
 mod causal;
 mod experiment;
 #[allow(unreachable_pub)] // generated
@@ -15,6 +16,7 @@ mod peers;
 mod pose_graphs;
 mod robot;
 mod root;
+mod score;
 mod table;
 
 use std::error::Error;
@@ -47,6 +49,7 @@ fn run(command: ExperimentsCmd) -> Result<(), Box<dyn Error>> {
         }
         ExperimentsCmd::Grids(flags) => grids::run(&flags),
         ExperimentsCmd::Log(flags) => log::run(&flags.data),
+        ExperimentsCmd::Calibrate(flags) => calibrate::run(&flags),
         ExperimentsCmd::Robot(flags) => robot::run(&flags),
     }
 }

@@ -7,7 +7,7 @@ mod graphs;
 mod online;
 mod proof;
 pub(crate) mod speed;
-mod usage;
+pub(crate) mod usage;
 
 use std::error::Error;
 use std::path::PathBuf;

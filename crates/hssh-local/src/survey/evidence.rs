@@ -2,6 +2,7 @@
 //! that, and where the robot seems to be back although the laser does not show it.
 
 use super::error::SurveyWarning;
+use super::visit::Survey;
 use crate::closing::Closure;
 use crate::matching::Track;
 
@@ -57,13 +58,21 @@ impl Evidence {
     }
 }
 
+impl Survey {
+    /// The closures by which the laser shows that the robot was back: those of each return together, by the later scan.
+    #[must_use]
+    pub fn returns(&self) -> Vec<Vec<Closure>> {
+        stretches(&self.track, self.closures.iter().filter(|closure| closure.weight >= BELIEVED))
+    }
+}
+
 /// The evidence for a closed track, and what there is to say about it.
 pub(super) fn evidence(track: &Track, closures: &[Closure]) -> (Evidence, Vec<SurveyWarning>) {
     let (believed, contradicted): (Vec<Closure>, Vec<Closure>) =
         closures.iter().partition(|closure| closure.weight >= BELIEVED);
     let mut warnings = Vec::new();
     let mut evidence = Evidence { returns: stretches(track, &believed).len(), ..Evidence::default() };
-    for closure in stretches(track, &contradicted) {
+    for closure in stretches(track, &contradicted).iter().filter_map(|stretch| stretch.first()) {
         evidence.contradicted += 1;
         warnings.push(SurveyWarning::Contradicted { scan: closure.later + 1, earlier: closure.earlier + 1 });
     }
@@ -74,24 +83,21 @@ pub(super) fn evidence(track: &Track, closures: &[Closure]) -> (Evidence, Vec<Su
     (evidence, warnings)
 }
 
-/// The first closure of each stretch along which one follows another.
-fn stretches(track: &Track, closures: &[Closure]) -> Vec<Closure> {
+/// Closures that follow one another along a stretch of the way, together.
+fn stretches<'a>(track: &Track, closures: impl IntoIterator<Item = &'a Closure>) -> Vec<Vec<Closure>> {
     let at = |scan: usize| track.scans[scan].travelled;
-    let (mut first, mut last): (Vec<Closure>, Vec<Closure>) = (Vec::new(), Vec::new());
+    let mut stretches: Vec<Vec<Closure>> = Vec::new();
     for closure in closures {
         let is_same = |other: &Closure| {
             (at(other.later) - at(closure.later)).abs() < ONE_RETURN
                 && (at(other.earlier) - at(closure.earlier)).abs() < ONE_RETURN
         };
-        match last.iter_mut().find(|other| is_same(other)) {
-            Some(other) => *other = *closure,
-            None => {
-                first.push(*closure);
-                last.push(*closure);
-            }
+        match stretches.iter_mut().find(|stretch| stretch.last().is_some_and(is_same)) {
+            Some(stretch) => stretch.push(*closure),
+            None => stretches.push(vec![*closure]),
         }
     }
-    first
+    stretches
 }
 
 /// Where the robot seems to be back, and no closure says so: one pair of scans for each stretch.
