@@ -4,7 +4,7 @@
 use nalgebra::{Vector2, vector};
 
 use super::options::RouteOptions;
-use crate::grid::{Cell, OccupancyGrid};
+use crate::grid::{Cell, Occupancy, OccupancyGrid};
 use crate::skeleton::{FreeSpace, Skeleton, SkeletonOptions};
 
 /// One end of a way.
@@ -42,6 +42,18 @@ pub(super) struct Network {
     pub(super) ways: Vec<Way>,
 }
 
+/// How far it is from a cell to the nearest wall, in metres; `most` if it is farther.
+fn room(building: &OccupancyGrid, from: Cell, most: f64) -> f64 {
+    let lattice = building.lattice();
+    let reach = (most / lattice.resolution()).ceil() as i32;
+    let around = (-reach..=reach).flat_map(|rows| (-reach..=reach).map(move |columns| (columns, rows)));
+    let walls = around.filter(|&(columns, rows)| {
+        lattice.step(from, columns, rows).is_some_and(|cell| building.get(cell) == Occupancy::Occupied)
+    });
+    let off = |(columns, rows): (i32, i32)| f64::from(columns).hypot(f64::from(rows)) * lattice.resolution();
+    walls.map(off).fold(most, f64::min)
+}
+
 impl WayEnd {
     pub(super) fn opposite(self) -> Self {
         WayEnd { is_last: !self.is_last, ..self }
@@ -71,7 +83,7 @@ impl Way {
 
 impl Network {
     /// The network of travelled cells.
-    pub(super) fn new(travelled: &OccupancyGrid, options: &RouteOptions) -> Self {
+    pub(super) fn new(travelled: &OccupancyGrid, building: &OccupancyGrid, options: &RouteOptions) -> Self {
         let skeleton_options = SkeletonOptions {
             clutter: 0.0,
             narrowest_passage: 0.2,
@@ -80,18 +92,21 @@ impl Network {
         };
         let free = FreeSpace::new(travelled, &skeleton_options);
         let skeleton = Skeleton::new(travelled, &free, &skeleton_options);
-        Self::of(&skeleton, options)
+        let room: Vec<f64> =
+            skeleton.nodes.iter().map(|node| room(building, node.at.cell, options.largest_spot)).collect();
+        Self::of(&skeleton, &room, options)
     }
 
-    /// Junctions that short ways join become one spot.
-    fn of(skeleton: &Skeleton, options: &RouteOptions) -> Self {
+    /// Junctions that short ways join become one spot: ways no longer than there is room around them, by node in `room`.
+    fn of(skeleton: &Skeleton, room: &[f64], options: &RouteOptions) -> Self {
         let mut group: Vec<usize> = (0..skeleton.nodes.len()).collect();
         let lengths: Vec<f64> =
             skeleton.edges.iter().map(|edge| crate::skeleton::length(&edge.points)).collect();
         let is_junction = |node: usize| skeleton.nodes[node].ends.len() > 2;
         let is_core = |edge: usize| {
             let [from, to] = skeleton.edges[edge].nodes.map(|node| node.index());
-            lengths[edge] < options.one_spot && is_junction(from) && is_junction(to)
+            let one_spot = options.one_spot.max(options.roomy * room[from].max(room[to]));
+            lengths[edge] < one_spot.min(options.largest_spot) && is_junction(from) && is_junction(to)
         };
         for (index, edge) in skeleton.edges.iter().enumerate() {
             if is_core(index) {

@@ -11,8 +11,12 @@ pub struct RouteOptions {
     pub island_walls: f64,
     /// A way that leads less far than this out of another is none.
     pub shortest_branch: f64,
-    /// Junctions joined by a way that is shorter are one spot.
+    /// Junctions joined by a way that is shorter are one spot…
     pub one_spot: f64,
+    /// …or, where there is more room around them, by one that is no longer than so many times the room…
+    pub roomy: f64,
+    /// …but for ways longer than this.
+    pub largest_spot: f64,
     /// A spot reaches so far along its ways.
     pub reach: f64,
     /// Along ways, the neighborhood is looked at every so many metres.
@@ -37,6 +41,8 @@ impl Default for RouteOptions {
             island_walls: 0.25,
             shortest_branch: 1.0,
             one_spot: 2.0,
+            roomy: 1.25,
+            largest_spot: 3.0,
             reach: 1.5,
             look_distance: 1.0,
             same_place: 3.0,

@@ -52,7 +52,7 @@ pub(crate) fn route(
     place: &PlaceOptions,
 ) -> Route {
     let travelled = travelled(building, poses, options);
-    let mut network = Network::new(&travelled, options);
+    let mut network = Network::new(&travelled, building, options);
     add_sighted(&mut network, building, window, options, place);
     part_loops(&mut network);
     let out: Vec<WaysOut> = (0..network.spots.len())
