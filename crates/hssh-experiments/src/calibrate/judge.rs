@@ -23,7 +23,8 @@ const STEP: f64 = 1.0;
 /// What a survey rests on, and what of it is wrong.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
 pub(super) struct Errors {
-    /// Returns that the laser shows; wrong if one of the closures is off.
+    /// Returns that the laser shows; wrong if the closed track is off at one of their closures, which alone may not know
+    /// how far along a corridor the robot is.
     pub(super) returns: Count,
     /// Contradicted ones; wrong if the closed track is off there.
     pub(super) contradicted: Count,
@@ -40,17 +41,13 @@ impl Errors {
     /// Counts what a survey rests on.
     pub(super) fn of(survey: &Survey, truth: &[Pose]) -> Self {
         let mut errors = Errors::default();
-        let is_off = |earlier: usize, later: usize, believed: Pose| {
+        let is_lost = |earlier: usize, later: usize| {
+            let believed = survey.track.scans[earlier].pose.between(survey.track.scans[later].pose);
             let true_relative = truth[earlier].between(truth[later]);
             (true_relative.translation() - believed.translation()).norm() > OFF
         };
-        let pose = |scan: usize| survey.track.scans[scan].pose;
-        let is_lost =
-            |earlier: usize, later: usize| is_off(earlier, later, pose(earlier).between(pose(later)));
         for closures in survey.returns() {
-            let is_wrong =
-                closures.iter().any(|closure| is_off(closure.earlier, closure.later, closure.relative));
-            errors.returns.add(is_wrong);
+            errors.returns.add(closures.iter().any(|closure| is_lost(closure.earlier, closure.later)));
         }
         for warning in &survey.warnings {
             match *warning {
