@@ -8,7 +8,7 @@ mod common;
 
 use common::{Grid, random_planar};
 use hssh_draw::{
-    Bearings, Layout, MapOptions, SearchTree, TreeOptions, draw_map, draw_tree, map_to_dot, tree_to_dot,
+    Bearings, Drawing, MapOptions, SearchTree, TreeOptions, draw_map, draw_tree, map_to_dot, tree_to_dot,
 };
 use hssh_search::{Mapper, Visit};
 use hssh_topology::{Axioms, Hypothesis, Olp, PlaceId, Star, StarCatalog, TopologicalMap};
@@ -21,9 +21,9 @@ fn main() -> Result<(), Failure> {
     std::fs::create_dir_all(&directory)?;
     let write = |name: &str, text: String| std::fs::write(directory.join(name), text);
     let schematic = |title: &str, map: &TopologicalMap, current, star_names| -> Result<String, Failure> {
-        let layout = Layout::schematic(map, &Bearings::none())?;
+        let drawing = Drawing::schematic(map, &Bearings::none())?;
         let options = MapOptions { title: Some(title.to_owned()), current, star_names, measure: true };
-        Ok(draw_map(map, &layout, &options))
+        Ok(draw_map(map, &drawing, &options))
     };
     let letters = |count: usize| (0..count).map(|star| char::from(b'A' + star as u8).to_string()).collect();
 

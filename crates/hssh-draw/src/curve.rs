@@ -3,7 +3,7 @@
 
 use hssh_topology::MapOlp;
 
-use crate::layout::Layout;
+use crate::drawing::Drawing;
 use crate::svg::{Cubic, Point, toward};
 
 /// An end that looks farther away from the other end of its link than that (0: straight at it, 2: straight
@@ -19,17 +19,17 @@ struct Waypoint {
     heading: Point,
 }
 
-/// The link between two gateways as Bézier curves, in units of the layout, from and to the circles of that
+/// The link between two gateways as Bézier curves, in units of the drawing, from and to the circles of that
 /// radius around the two places.
-pub(crate) fn link_curve(layout: &Layout, from: MapOlp, to: MapOlp, radius: f64) -> Vec<Cubic> {
-    let (leaving, entering) = (toward(layout.direction(from)), toward(layout.direction(to)));
-    let (here, there) = (layout.position_of_end(from), layout.position_of_end(to));
+pub(crate) fn link_curve(drawing: &Drawing, from: MapOlp, to: MapOlp, radius: f64) -> Vec<Cubic> {
+    let (leaving, entering) = (toward(drawing.direction(from)), toward(drawing.direction(to)));
+    let (here, there) = (drawing.position_of_end(from), drawing.position_of_end(to));
     let (start, end) = (here + radius * leaving, there + radius * entering);
     let chord = (end - start).try_normalize(1e-9).unwrap_or(leaving);
     let side = Point::new(-chord.y, chord.x);
     let beside = |place: Point, lean: f64| {
         let side = if lean < 0.0 { -side } else { side };
-        Waypoint { at: place + side * (radius + DETOUR * layout.unit()), heading: chord }
+        Waypoint { at: place + side * (radius + DETOUR * drawing.unit()), heading: chord }
     };
 
     let mut way = vec![Waypoint { at: start, heading: leaving }];
@@ -40,7 +40,7 @@ pub(crate) fn link_curve(layout: &Layout, from: MapOlp, to: MapOlp, radius: f64)
         way.push(beside(there, entering.dot(&side)));
     }
     way.push(Waypoint { at: end, heading: -entering });
-    way.windows(2).map(|pair| cubic(pair[0], pair[1], layout.unit())).collect()
+    way.windows(2).map(|pair| cubic(pair[0], pair[1], drawing.unit())).collect()
 }
 
 /// The curve between two points: straight if both look at each other, rounder the more they look away.

@@ -9,7 +9,7 @@ use rand_chacha::ChaCha8Rng;
 use crate::geometry::wrap;
 use crate::noise::OdometryNoise;
 use crate::route::{Route, RouteError};
-use crate::world::{Gateway, Place, World};
+use crate::world::{Place, World, WorldOlp};
 
 /// Two places share a star type only if their bearings agree to this, in radians.
 const SAME_BEARING: f64 = 1e-9;
@@ -61,7 +61,7 @@ impl World {
     fn write_down(
         &self,
         route: &Route,
-        crossings: &[(Gateway, Gateway)],
+        crossings: &[(WorldOlp, WorldOlp)],
         odometry: Vec<Option<Odometry>>,
     ) -> Exploration {
         let mut star_types = Vec::new();
@@ -81,7 +81,7 @@ impl World {
         )
     }
 
-    fn bearing(&self, gateway: Gateway) -> f64 {
+    fn bearing(&self, gateway: WorldOlp) -> f64 {
         self.place(gateway.place).bearings[gateway.olp.index()]
     }
 }
@@ -139,8 +139,8 @@ mod tests {
                 assert_eq!(exploration.star(star_type), &world.place(place).star);
             }
             for (travel, pair) in exploration.travels().iter().zip(visits.windows(2)) {
-                let exit = Gateway { place: pair[0], olp: travel.exit };
-                assert_eq!(world.neighbor(exit), Some(Gateway { place: pair[1], olp: travel.entry }));
+                let exit = WorldOlp { place: pair[0], olp: travel.exit };
+                assert_eq!(world.neighbor(exit), Some(WorldOlp { place: pair[1], olp: travel.entry }));
             }
         }
     }

@@ -5,7 +5,7 @@ use std::f64::consts::{FRAC_PI_2, PI};
 use hssh_topology::{Olp, OlpName, Passability, Sign, Star, StarEnd};
 
 use crate::geometry::Point;
-use crate::world::{Gateway, Link, Place, PlaceId, World, WorldError};
+use crate::world::{Link, Place, PlaceId, World, WorldError, WorldOlp};
 
 /// Ends of a grid place in clockwise order, as positions in its star.
 const NORTH: Olp = Olp::new(0);
@@ -41,7 +41,7 @@ pub fn grid(rows: u32, columns: u32, spacing: f64) -> Result<World, WorldError> 
     };
     let id = |row: u32, column: u32| PlaceId(row * columns + column);
     let link = |from, exit, to, entry| Link {
-        ends: [Gateway { place: from, olp: exit }, Gateway { place: to, olp: entry }],
+        ends: [WorldOlp { place: from, olp: exit }, WorldOlp { place: to, olp: entry }],
         bends: Vec::new(),
     };
     let eastward = cells()

@@ -53,4 +53,4 @@ pub use random::random_planar;
 pub use route::{Route, RouteError};
 pub use streets::{Crossing, Street, StreetError, StreetNetwork, StreetProblem};
 pub use walk::{cover, random_walk};
-pub use world::{Gateway, Link, Place, PlaceId, World, WorldError};
+pub use world::{Link, Place, PlaceId, World, WorldError, WorldOlp};

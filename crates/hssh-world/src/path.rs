@@ -2,7 +2,7 @@
 
 use std::collections::BTreeSet;
 
-use crate::world::{Gateway, PlaceId, World};
+use crate::world::{PlaceId, World, WorldOlp};
 
 /// A path of the world: the places met by always leaving opposite to where one came in.
 #[derive(Clone, PartialEq, Eq, Debug)]
@@ -21,7 +21,7 @@ impl World {
         let mut paths = Vec::new();
         for place in self.place_ids() {
             for olp in self.place(place).star.olps() {
-                let here = Gateway { place, olp };
+                let here = WorldOlp { place, olp };
                 if seen.contains(&here) {
                     continue;
                 }
@@ -45,7 +45,7 @@ impl World {
 
     /// Looking along `end`: the first end of its path that looks the same way, and whether the
     /// path is circular (then any end is the first).
-    fn start_of_path(&self, end: Gateway) -> (Gateway, bool) {
+    fn start_of_path(&self, end: WorldOlp) -> (WorldOlp, bool) {
         let backwards = self.follow(self.opposite(end));
         let last = backwards[backwards.len() - 1];
         let circular = self.neighbor(last).is_some();
@@ -54,7 +54,7 @@ impl World {
 
     /// The ends met by looking along `start` and going straight on, up to the path's end or back
     /// to the start.
-    fn follow(&self, start: Gateway) -> Vec<Gateway> {
+    fn follow(&self, start: WorldOlp) -> Vec<WorldOlp> {
         let mut along = vec![start];
         let mut here = start;
         while let Some(far) = self.neighbor(here) {
@@ -67,7 +67,7 @@ impl World {
         along
     }
 
-    fn opposite(&self, end: Gateway) -> Gateway {
-        Gateway { olp: self.place(end.place).star.opposite(end.olp), ..end }
+    fn opposite(&self, end: WorldOlp) -> WorldOlp {
+        WorldOlp { olp: self.place(end.place).star.opposite(end.olp), ..end }
     }
 }

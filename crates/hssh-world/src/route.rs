@@ -3,7 +3,7 @@
 use hssh_topology::Olp;
 
 use crate::noise::DriftError;
-use crate::world::{Gateway, PlaceId, World};
+use crate::world::{PlaceId, World, WorldOlp};
 
 /// A route through a world.
 #[derive(Clone, PartialEq, Eq, Debug)]
@@ -108,12 +108,12 @@ impl World {
     }
 
     /// The gateways that a route leaves and enters by.
-    pub(crate) fn follow_route(&self, route: &Route) -> Result<Vec<(Gateway, Gateway)>, RouteError> {
+    pub(crate) fn follow_route(&self, route: &Route) -> Result<Vec<(WorldOlp, WorldOlp)>, RouteError> {
         self.check(route.start)?;
         let mut place = route.start;
         let mut crossings = Vec::new();
         for (index, &olp) in route.exits.iter().enumerate() {
-            let exit = Gateway { place, olp };
+            let exit = WorldOlp { place, olp };
             let entry = self.neighbor(exit).ok_or_else(|| RouteError::NoGateway {
                 travel: index + 1,
                 from: place.0,

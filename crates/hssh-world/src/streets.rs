@@ -2,7 +2,7 @@
 
 use crate::crossing::star_of_crossing;
 use crate::geometry::Point;
-use crate::world::{Gateway, Link, Place, PlaceId, World, WorldError};
+use crate::world::{Link, Place, PlaceId, World, WorldError, WorldOlp};
 
 /// How far a polyline may begin or end from its crossing, in metres: data rounded to centimetres.
 const END_TOLERANCE: f64 = 0.05;
@@ -125,7 +125,7 @@ impl StreetNetwork {
             let read =
                 star_of_crossing(&bearings).ok_or_else(|| WorldError::NoStreet(crossing.name.clone()))?;
             for (&(street, side, _), &olp) in leaving.iter().zip(&read.olps) {
-                links[street].ends[side] = Gateway { place: PlaceId(index as u32), olp };
+                links[street].ends[side] = WorldOlp { place: PlaceId(index as u32), olp };
             }
             places.push(Place {
                 name: crossing.name.clone(),
@@ -143,7 +143,7 @@ impl StreetNetwork {
         let position = |end: usize| match self.crossings.get(end) {
             Some(crossing) => Ok(crossing.position),
             None => {
-                let gateway = Gateway { place: PlaceId(end as u32), olp: hssh_topology::Olp::new(0) };
+                let gateway = WorldOlp { place: PlaceId(end as u32), olp: hssh_topology::Olp::new(0) };
                 Err(WorldError::NoGateway { link: index, gateway })
             }
         };
@@ -183,7 +183,8 @@ impl StreetNetwork {
 
 /// A street's link before its stars are known; every end is set before the world is made.
 fn unlinked(street: &Street) -> Link {
-    let ends = street.ends.map(|end| Gateway { place: PlaceId(end as u32), olp: hssh_topology::Olp::new(0) });
+    let ends =
+        street.ends.map(|end| WorldOlp { place: PlaceId(end as u32), olp: hssh_topology::Olp::new(0) });
     Link { ends, bends: street.bends.clone() }
 }
 

@@ -7,7 +7,7 @@ use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 
 use crate::route::{Route, RouteError};
-use crate::world::{Gateway, PlaceId, World};
+use crate::world::{PlaceId, World, WorldOlp};
 
 /// A random walk of at most `travels` travels from a random place.
 ///
@@ -18,10 +18,10 @@ pub fn random_walk(world: &World, travels: usize, seed: u64) -> Route {
     let mut random = ChaCha8Rng::seed_from_u64(seed);
     let start = random_place(world, &mut random);
     let mut exits = Vec::new();
-    let mut entry: Option<Gateway> = None;
+    let mut entry: Option<WorldOlp> = None;
     while exits.len() < travels {
         let here = entry.map_or(start, |entry| entry.place);
-        let onward: Vec<Gateway> =
+        let onward: Vec<WorldOlp> =
             world.gateways_of(here).filter(|&gateway| Some(gateway) != entry).collect();
         let Some(exit) = onward.choose(&mut random).copied().or(entry) else { break };
         exits.push(exit.olp);
@@ -44,7 +44,7 @@ pub fn cover(world: &World, seed: u64) -> Result<Route, RouteError> {
     let mut exits = Vec::new();
     let mut here = start;
     while travelled.len() < world.links().len() {
-        let untravelled: Vec<Gateway> = world
+        let untravelled: Vec<WorldOlp> = world
             .gateways_of(here)
             .filter(|&gateway| world.link_index(gateway).is_some_and(|link| !travelled.contains(&link)))
             .collect();
@@ -66,14 +66,14 @@ pub fn cover(world: &World, seed: u64) -> Result<Route, RouteError> {
 }
 
 /// The fewest gateways to take one after another, the last of them of an untravelled link.
-fn way_to_untravelled(world: &World, from: PlaceId, travelled: &BTreeSet<usize>) -> Option<Vec<Gateway>> {
-    let mut reached_by: Vec<Option<Gateway>> = vec![None; world.places().len()];
+fn way_to_untravelled(world: &World, from: PlaceId, travelled: &BTreeSet<usize>) -> Option<Vec<WorldOlp>> {
+    let mut reached_by: Vec<Option<WorldOlp>> = vec![None; world.places().len()];
     let mut frontier = VecDeque::from([from]);
     while let Some(here) = frontier.pop_front() {
         for exit in world.gateways_of(here) {
             if world.link_index(exit).is_some_and(|link| !travelled.contains(&link)) {
                 let back = std::iter::successors(Some(exit), |gateway| reached_by[gateway.place.index()]);
-                let mut way: Vec<Gateway> = back.collect();
+                let mut way: Vec<WorldOlp> = back.collect();
                 way.reverse();
                 return Some(way);
             }

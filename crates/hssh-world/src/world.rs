@@ -36,7 +36,7 @@ pub struct Place {
 
 /// An oriented local path of a place of the world.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
-pub struct Gateway {
+pub struct WorldOlp {
     /// The place.
     pub place: PlaceId,
     /// The oriented local path of its star.
@@ -47,7 +47,7 @@ pub struct Gateway {
 #[derive(Clone, PartialEq, Debug)]
 pub struct Link {
     /// The gateways it joins; they may belong to one place (a loop).
-    pub ends: [Gateway; 2],
+    pub ends: [WorldOlp; 2],
     /// Where the way bends between the two places, from the first end to the second.
     pub bends: Vec<Point>,
 }
@@ -111,13 +111,13 @@ pub enum WorldError {
         /// The link, counted from 0.
         link: usize,
         /// The end that is missing.
-        gateway: Gateway,
+        gateway: WorldOlp,
     },
     /// Two links, or both ends of one, use a gateway.
     #[error("gateway {gateway} of place `{place}` is used by link {first} and again by link {second}")]
     LinkedTwice {
         /// The gateway.
-        gateway: Gateway,
+        gateway: WorldOlp,
         /// The place's name.
         place: String,
         /// The link that came first, counted from 0.
@@ -129,7 +129,7 @@ pub enum WorldError {
     #[error("gateway {gateway} of place `{place}` leads nowhere: close it or link it")]
     NotLinked {
         /// The gateway.
-        gateway: Gateway,
+        gateway: WorldOlp,
         /// The place's name.
         place: String,
     },
@@ -138,7 +138,7 @@ pub enum WorldError {
     NoStreet(String),
 }
 
-impl fmt::Display for Gateway {
+impl fmt::Display for WorldOlp {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "{}:{}", self.place.0, self.olp)
     }
@@ -212,33 +212,33 @@ impl World {
     }
 
     /// All gateways, by place and clockwise.
-    pub fn gateways(&self) -> impl Iterator<Item = Gateway> + '_ {
+    pub fn gateways(&self) -> impl Iterator<Item = WorldOlp> + '_ {
         self.place_ids().flat_map(|place| self.gateways_of(place))
     }
 
     /// The gateways of one place, clockwise.
-    pub fn gateways_of(&self, place: PlaceId) -> impl Iterator<Item = Gateway> + '_ {
-        self.place(place).star.gateways().map(move |olp| Gateway { place, olp })
+    pub fn gateways_of(&self, place: PlaceId) -> impl Iterator<Item = WorldOlp> + '_ {
+        self.place(place).star.gateways().map(move |olp| WorldOlp { place, olp })
     }
 
     /// The gateway at the other end of a gateway's link; `None` if the end is closed, or is no
     /// end of this world.
     #[must_use]
-    pub fn neighbor(&self, gateway: Gateway) -> Option<Gateway> {
+    pub fn neighbor(&self, gateway: WorldOlp) -> Option<WorldOlp> {
         let (link, side) = self.link_and_side(gateway)?;
         Some(self.links[link].ends[1 - side])
     }
 
     /// Which of [`World::links`] a gateway has, `None` as for [`World::neighbor`].
     #[must_use]
-    pub fn link_index(&self, gateway: Gateway) -> Option<usize> {
+    pub fn link_index(&self, gateway: WorldOlp) -> Option<usize> {
         self.link_and_side(gateway).map(|(link, _)| link)
     }
 
     /// The way out of a gateway: from the place's position by the bends to the neighbor's
     /// position; `None` as for [`World::neighbor`].
     #[must_use]
-    pub fn way(&self, gateway: Gateway) -> Option<Vec<Point>> {
+    pub fn way(&self, gateway: WorldOlp) -> Option<Vec<Point>> {
         let (link, side) = self.link_and_side(gateway)?;
         let Link { ends, bends } = &self.links[link];
         let mut way = vec![self.place(ends[0].place).position];
@@ -252,11 +252,11 @@ impl World {
 
     /// The length of the way out of a gateway in metres; `None` as for [`World::neighbor`].
     #[must_use]
-    pub fn way_length(&self, gateway: Gateway) -> Option<f64> {
+    pub fn way_length(&self, gateway: WorldOlp) -> Option<f64> {
         self.way(gateway).map(|way| length(&way))
     }
 
-    fn link_and_side(&self, gateway: Gateway) -> Option<(usize, usize)> {
+    fn link_and_side(&self, gateway: WorldOlp) -> Option<(usize, usize)> {
         *self.link_at.get(gateway.place.index())?.get(gateway.olp.index())?
     }
 }
@@ -302,7 +302,7 @@ mod tests {
     }
 
     fn link(from: (u32, u32), to: (u32, u32)) -> Link {
-        let gateway = |(place, olp)| Gateway { place: PlaceId(place), olp: Olp::new(olp) };
+        let gateway = |(place, olp)| WorldOlp { place: PlaceId(place), olp: Olp::new(olp) };
         Link { ends: [gateway(from), gateway(to)], bends: Vec::new() }
     }
 

@@ -5,20 +5,20 @@ use std::fs;
 use std::path::PathBuf;
 
 use hssh_world::{
-    Gateway, OfficePlan, Point, World, cover, graphml, momepy, offices, random_planar, strategies,
+    OfficePlan, Point, World, WorldOlp, cover, graphml, momepy, offices, random_planar, strategies,
 };
 use proptest::prelude::*;
 use robust::{Coord, orient2d};
 
 /// Places − links + faces of a connected world; 2 if its stars embed it in the plane.
 fn euler_characteristic(world: &World) -> i64 {
-    let next_open = |gateway: Gateway| {
+    let next_open = |gateway: WorldOlp| {
         let star = &world.place(gateway.place).star;
         let mut olp = star.next(gateway.olp);
         while !star.is_travelable(olp) {
             olp = star.next(olp);
         }
-        Gateway { olp, ..gateway }
+        WorldOlp { olp, ..gateway }
     };
     let mut walked = BTreeSet::new();
     let mut faces = 0;

@@ -9,8 +9,8 @@ use std::sync::Arc;
 use hssh::answer::{
     Answer, AnswerError, AnswerWarning, AnsweredEvidence, AnsweredMap, AnsweredVisit, Assumption, CostItem,
     CostSheet, EndReference, EndState, Explanation, Finding, FoundCounts, InputKind, MapDifference,
-    Objective, PartingVisit, PlacedPose, SearchOrder, Spot, StopReason, TestTravels, Verdict, VerdictKind,
-    VisitRecord, WarningKind, Worth,
+    PartingVisit, PlacedPose, SearchObjective, SearchOrder, Spot, StopReason, TestTravels, Verdict,
+    VerdictKind, VisitRecord, WarningKind, Worth,
 };
 use hssh::causal::Exploration;
 use hssh::pipeline::{Input, Mapped, MappingOptions, Monitor, SearchMethod, map};
@@ -123,7 +123,7 @@ fn every_word_is_documented() {
         }
     };
     documented(words([InputKind::Exploration, InputKind::LaserLog]));
-    documented(words([Objective::Preference, Objective::Posterior]));
+    documented(words([SearchObjective::Preference, SearchObjective::Posterior]));
     documented(words([EndState::Closed, EndState::Pending, EndState::Linked]));
     documented(words([Finding::Start, Finding::Predicted, Finding::NewPlace, Finding::Closure]));
     documented(words([

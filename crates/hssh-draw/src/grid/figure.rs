@@ -39,46 +39,46 @@ pub const TOLD_WAY: &str = "#e69f00";
 pub fn draw_grid(grid: &OccupancyGrid, picture: &GridPicture<'_>) -> String {
     let (width, height) = (f64::from(grid.lattice().width()), f64::from(grid.lattice().height()));
     let scale = SIZE / width.max(height);
-    let mut drawing = Drawing { lattice: *grid.lattice(), text: String::new(), unit: 0.0 };
-    drawing.unit = (0.05 / grid.lattice().resolution()).max(1.0 / scale);
+    let mut canvas = Canvas { lattice: *grid.lattice(), text: String::new(), unit: 0.0 };
+    canvas.unit = (0.05 / grid.lattice().resolution()).max(1.0 / scale);
     let _ = writeln!(
-        drawing.text,
+        canvas.text,
         r#"<svg xmlns="http://www.w3.org/2000/svg" xmlns:xlink="http://www.w3.org/1999/xlink" width="{:.0}" height="{:.0}" viewBox="0 0 {width} {height}">"#,
         width * scale,
         height * scale
     );
     let _ = writeln!(
-        drawing.text,
+        canvas.text,
         r#"<image width="{width}" height="{height}" style="image-rendering:pixelated" xlink:href="{}"/>"#,
         data_uri(grid)
     );
     for edge in picture.skeleton.iter().flat_map(|skeleton| &skeleton.edges) {
         let points = edge.points.iter().map(|point| point.point);
-        drawing.polyline(points, "#56b4e9", 1.5);
+        canvas.polyline(points, "#56b4e9", 1.5);
     }
     for (way, color) in &picture.ways {
-        drawing.polyline(way.iter().copied(), color, 1.6);
+        canvas.polyline(way.iter().copied(), color, 1.6);
     }
     for (number, (center, star)) in picture.places.iter().enumerate() {
-        drawing.star(*center, star, number);
+        canvas.star(*center, star, number);
     }
     for gateway in picture.constrictions {
-        drawing.line(gateway.line, "#009e73", 5.0);
+        canvas.line(gateway.line, "#009e73", 5.0);
     }
     if let Some(robot) = picture.robot {
-        drawing.disk(robot, 5.0, "#0072b2");
+        canvas.disk(robot, 5.0, "#0072b2");
     }
-    drawing.text + "</svg>\n"
+    canvas.text + "</svg>\n"
 }
 
-struct Drawing {
+struct Canvas {
     lattice: Lattice,
     text: String,
     /// The width of a thin line, in cells: about 5 cm.
     unit: f64,
 }
 
-impl Drawing {
+impl Canvas {
     /// A point in metres as columns from the left and rows from the top.
     fn at(&self, point: [f64; 2]) -> [f64; 2] {
         let [column, row] = self.lattice.continuous(point);

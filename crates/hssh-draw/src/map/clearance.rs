@@ -19,8 +19,10 @@ impl Obstacles {
     /// What is drawn of a map without labels.
     pub(crate) fn of(scene: &Scene) -> Self {
         let map = scene.map;
-        let mut obstacles: Vec<(Point, f64)> =
-            map.places().map(|place| (scene.on_canvas(scene.layout.position(place)), scene.radius)).collect();
+        let mut obstacles: Vec<(Point, f64)> = map
+            .places()
+            .map(|place| (scene.on_canvas(scene.drawing.position(place)), scene.radius))
+            .collect();
         for (from, to) in map.links() {
             let points = scene.link(from, to);
             let points = points.iter().flat_map(|cubic| along(cubic, SAMPLES));

@@ -6,7 +6,7 @@ use nalgebra::vector;
 use super::clearance::Obstacles;
 use super::marks::Scene;
 use super::{MapOptions, measure_line};
-use crate::layout::Layout;
+use crate::drawing::Drawing;
 use crate::palette::Palette;
 use crate::svg::{Anchor, Canvas, Point, text_width};
 
@@ -23,14 +23,14 @@ const NAME_SIZE: f64 = 11.0;
 /// Places are numbered circles with their ends in the star's clockwise order: dots are linked gateways,
 /// arrows with a hollow tip pending ones, blunt bars closed ends. Links have the color of their path;
 /// what belongs to a path with a single place is gray. Around a place, if its covariance is known, the ellipse that
-/// holds it with a probability of 95 %. `layout` must have been made for `map`.
+/// holds it with a probability of 95 %. `drawing` must have been made for `map`.
 ///
 /// # Panics
-/// If the layout is of another map, with fewer places.
+/// If the drawing is of another map, with fewer places.
 #[must_use]
-pub fn draw_map(map: &TopologicalMap, layout: &Layout, options: &MapOptions) -> String {
+pub fn draw_map(map: &TopologicalMap, drawing: &Drawing, options: &MapOptions) -> String {
     let (palette, origin) = (Palette::of(map), Point::zeros());
-    let scene = Scene { map, layout, palette, unit: UNIT, radius: RADIUS, line: LINE, origin };
+    let scene = Scene { map, drawing, palette, unit: UNIT, radius: RADIUS, line: LINE, origin };
     let mut canvas = Canvas::default();
     let mut obstacles = Obstacles::of(&scene);
 
@@ -42,7 +42,7 @@ pub fn draw_map(map: &TopologicalMap, layout: &Layout, options: &MapOptions) -> 
     }
     draw_ellipses(&mut canvas, &scene);
     if let Some(place) = options.current.filter(|&place| place.number() < map.place_count()) {
-        let center = scene.on_canvas(layout.position(place));
+        let center = scene.on_canvas(drawing.position(place));
         let distances = [0.1, 0.2, 0.34].map(|part| RADIUS + part * UNIT);
         let direction = obstacles.clearest_direction(center, &distances, RADIUS);
         canvas.open(r#"class="current""#);
@@ -64,7 +64,7 @@ pub fn draw_map(map: &TopologicalMap, layout: &Layout, options: &MapOptions) -> 
 /// How sure the places' positions are.
 fn draw_ellipses(canvas: &mut Canvas, scene: &Scene) {
     let ellipses: Vec<Vec<Point>> =
-        scene.map.places().filter_map(|place| scene.layout.ellipse(place)).collect();
+        scene.map.places().filter_map(|place| scene.drawing.ellipse(place)).collect();
     if ellipses.is_empty() {
         return;
     }
@@ -77,7 +77,7 @@ fn draw_ellipses(canvas: &mut Canvas, scene: &Scene) {
 }
 
 fn draw_place(canvas: &mut Canvas, scene: &Scene, place: PlaceId, options: &MapOptions) {
-    let center = scene.on_canvas(scene.layout.position(place));
+    let center = scene.on_canvas(scene.drawing.position(place));
     let fill = if options.current == Some(place) { "#ffe08a" } else { "#ffffff" };
     canvas.open(&format!(r#"class="place" data-place="{place}""#));
     canvas.circle(center, scene.radius, &format!(r##"fill="{fill}" stroke="#222222" stroke-width="1.6""##));
@@ -94,7 +94,7 @@ fn draw_place(canvas: &mut Canvas, scene: &Scene, place: PlaceId, options: &MapO
 
 /// Writes the name of a place's star where there is most room beside the place.
 fn draw_star_name(canvas: &mut Canvas, scene: &Scene, place: PlaceId, name: &str, obstacles: &mut Obstacles) {
-    let center = scene.on_canvas(scene.layout.position(place));
+    let center = scene.on_canvas(scene.drawing.position(place));
     let half_width = text_width(name, NAME_SIZE) / 2.0;
     let distance = scene.radius + 4.0 + NAME_SIZE / 2.0;
     let direction = obstacles.clearest_direction(center, &[distance, distance + half_width], scene.radius);

@@ -4,14 +4,14 @@ use hssh_topology::{MapOlp, TopologicalMap};
 use nalgebra::vector;
 
 use crate::curve::link_curve;
-use crate::layout::Layout;
+use crate::drawing::Drawing;
 use crate::palette::{Palette, PathStyle};
 use crate::svg::{Canvas, Cubic, Point, number};
 
-/// A map with its layout at a scale.
+/// A map with its drawing at a scale.
 pub(crate) struct Scene<'a> {
     pub(crate) map: &'a TopologicalMap,
-    pub(crate) layout: &'a Layout,
+    pub(crate) drawing: &'a Drawing,
     pub(crate) palette: Palette,
     /// The length of a typical link, in pixels.
     pub(crate) unit: f64,
@@ -19,7 +19,7 @@ pub(crate) struct Scene<'a> {
     pub(crate) radius: f64,
     /// The width of a link, in pixels.
     pub(crate) line: f64,
-    /// Where the origin of the layout comes to lie.
+    /// Where the origin of the drawing comes to lie.
     pub(crate) origin: Point,
 }
 
@@ -29,28 +29,28 @@ pub(super) const PENDING_LENGTH: f64 = 0.3;
 pub(super) const CLOSED_LENGTH: f64 = 1.9;
 
 impl Scene<'_> {
-    /// Layout to canvas: scaled, and y down.
+    /// Drawing to canvas: scaled, and y down.
     pub(crate) fn on_canvas(&self, point: Point) -> Point {
-        let scale = self.unit / self.layout.unit();
+        let scale = self.unit / self.drawing.unit();
         self.origin + vector![point.x * scale, -point.y * scale]
     }
 
     /// The point at a distance (pixels) from the middle of an end's place in the direction of the end.
     pub(crate) fn along_end(&self, olp: MapOlp, distance: f64) -> Point {
-        let center = self.on_canvas(self.layout.position_of_end(olp));
+        let center = self.on_canvas(self.drawing.position_of_end(olp));
         center + distance * self.end_direction(olp)
     }
 
     /// The direction of an end on the canvas.
     fn end_direction(&self, olp: MapOlp) -> Point {
-        let direction = self.layout.direction(olp);
+        let direction = self.drawing.direction(olp);
         vector![direction.cos(), -direction.sin()]
     }
 
     /// A link on the canvas.
     pub(crate) fn link(&self, from: MapOlp, to: MapOlp) -> Vec<Cubic> {
-        let radius = self.radius / self.unit * self.layout.unit();
-        let cubics = link_curve(self.layout, from, to, radius);
+        let radius = self.radius / self.unit * self.drawing.unit();
+        let cubics = link_curve(self.drawing, from, to, radius);
         cubics.into_iter().map(|cubic| cubic.map(|point| self.on_canvas(point))).collect()
     }
 

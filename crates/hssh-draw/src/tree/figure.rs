@@ -6,7 +6,7 @@ use super::arrangement::Arrangement;
 use super::legend::{draw_levels, draw_notes, letters_note, text_size};
 use super::thumbnail::Thumbnail;
 use super::{Fate, SearchTree, TreeError, TreeOptions, abbreviation, dots};
-use crate::layout::Layout;
+use crate::drawing::Drawing;
 use crate::svg::{Anchor, Canvas, Point};
 
 /// The room for the step between two levels, in pixels: its letters have to fit in.
@@ -53,9 +53,9 @@ fn thumbnails<'a>(
     }
     let pictures = tree.nodes.iter().filter_map(|node| node.picture.as_ref());
     let thumbnail = |(node, (map, place)): (usize, &'a (_, _))| {
-        let layout = Layout::schematic(map, &options.bearings)
-            .map_err(|problem| TreeError::Layout { node, problem })?;
-        Ok(Thumbnail::new(map, *place, layout))
+        let drawing = Drawing::schematic(map, &options.bearings)
+            .map_err(|problem| TreeError::Drawing { node, problem })?;
+        Ok(Thumbnail::new(map, *place, drawing))
     };
     pictures.enumerate().map(thumbnail).collect::<Result<Vec<_>, _>>().map(Some)
 }

@@ -14,7 +14,7 @@ pub use figure::draw_tree;
 use hssh_search::{Cursor, Experience, NodeId, Tree};
 use hssh_topology::{Derivation, Outcome, PlaceId, TopologicalMap};
 
-use crate::layout::{Bearings, LayoutError};
+use crate::drawing::{Bearings, DrawingError};
 
 /// The thesis's abbreviation for how a node follows from its parent.
 fn abbreviation(derivation: Derivation) -> &'static str {
@@ -103,13 +103,13 @@ pub enum TreeError {
         /// What it has as its parent.
         parent: String,
     },
-    /// A map has no layout.
+    /// A map has no drawing.
     #[error("node {node} of the search tree: {problem}")]
-    Layout {
+    Drawing {
         /// The node.
         node: usize,
         /// Why not.
-        problem: LayoutError,
+        problem: DrawingError,
     },
 }
 

@@ -3,7 +3,7 @@
 use hssh_topology::{PlaceId, TopologicalMap};
 use nalgebra::vector;
 
-use crate::layout::Layout;
+use crate::drawing::Drawing;
 use crate::map::{Obstacles, Scene};
 use crate::palette::Palette;
 use crate::svg::{Canvas, Point, along};
@@ -19,19 +19,19 @@ const REACH: f64 = 13.0;
 pub(super) struct Thumbnail<'a> {
     map: &'a TopologicalMap,
     current: PlaceId,
-    layout: Layout,
+    drawing: Drawing,
 }
 
 impl<'a> Thumbnail<'a> {
-    pub(super) fn new(map: &'a TopologicalMap, current: PlaceId, layout: Layout) -> Self {
-        Thumbnail { map, current, layout }
+    pub(super) fn new(map: &'a TopologicalMap, current: PlaceId, drawing: Drawing) -> Self {
+        Thumbnail { map, current, drawing }
     }
 
     fn scene(&self) -> Scene<'_> {
-        let (map, layout) = (self.map, &self.layout);
+        let (map, drawing) = (self.map, &self.drawing);
         Scene {
             map,
-            layout,
+            drawing,
             palette: Palette::of(map),
             unit: UNIT,
             radius: RADIUS,
@@ -40,11 +40,11 @@ impl<'a> Thumbnail<'a> {
         }
     }
 
-    /// The corners of the box that it takes, around the origin of its layout.
+    /// The corners of the box that it takes, around the origin of its drawing.
     fn corners(&self) -> (Point, Point) {
         let scene = self.scene();
         let reach = vector![REACH, REACH];
-        let places = self.map.places().map(|place| scene.on_canvas(self.layout.position(place)));
+        let places = self.map.places().map(|place| scene.on_canvas(self.drawing.position(place)));
         let boxes = places.map(|at| (at - reach, at + reach));
         let cubics = self.map.links().flat_map(|(from, to)| scene.link(from, to));
         let links = cubics.flat_map(|cubic| along(&cubic, 8));
@@ -68,11 +68,11 @@ impl<'a> Thumbnail<'a> {
             for olp in self.map.olps_of(place).filter(|&olp| self.map.is_pending(olp)) {
                 scene.draw_stub(canvas, olp);
             }
-            let center = scene.on_canvas(self.layout.position(place));
+            let center = scene.on_canvas(self.drawing.position(place));
             canvas.circle(center, RADIUS, r##"fill="#111111""##);
         }
         if self.current.number() < self.map.place_count() {
-            let center = scene.on_canvas(self.layout.position(self.current));
+            let center = scene.on_canvas(self.drawing.position(self.current));
             let distances = [0.3, 0.45, 0.6].map(|part| RADIUS + part * UNIT);
             let direction = Obstacles::of(&scene).clearest_direction(center, &distances, RADIUS);
             scene.draw_pointer(canvas, center, direction);

@@ -2,6 +2,6 @@
 #![allow(clippy::unwrap_used, reason = "in tests a failed unwrap is the failed assertion")]
 
 mod common;
-mod layouts;
+mod drawings;
 mod maps;
 mod trees;

@@ -2,7 +2,7 @@
 
 use std::f64::consts::TAU;
 
-use hssh_draw::{Bearings, Layout, MapOptions, draw_map, map_to_dot};
+use hssh_draw::{Bearings, Drawing, MapOptions, draw_map, map_to_dot};
 use hssh_metrics::Pose;
 use hssh_topology::{PlaceId, StarCatalog, TopologicalMap};
 
@@ -40,7 +40,7 @@ fn drawn_ends(svg: &str) -> Vec<DrawnPlace> {
 }
 
 fn schematic(map: &TopologicalMap, options: &MapOptions) -> String {
-    draw_map(map, &Layout::schematic(map, &Bearings::none()).unwrap(), options)
+    draw_map(map, &Drawing::schematic(map, &Bearings::none()).unwrap(), options)
 }
 
 #[test]
@@ -116,7 +116,7 @@ fn the_unit_of_length_does_not_matter() {
         Pose::new(f64::from(place.number() % 3) * 8.0, -f64::from(place.number() / 3) * 8.0, 0.0)
     };
     let poses = map.places().map(metres).collect();
-    let measured = Layout::measured(&map, poses, &Bearings::none()).unwrap();
+    let measured = Drawing::measured(&map, poses, &Bearings::none()).unwrap();
     let options = MapOptions::default();
     assert_eq!(draw_map(&map, &measured, &options), schematic(&map, &options));
 }

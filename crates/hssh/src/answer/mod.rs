@@ -29,7 +29,7 @@ pub use map::{AnsweredMap, CostItem, CostSheet, CurrentPosition, MapMeasure};
 pub use picture::{MapPicture, PictureError};
 pub use place::{AnsweredEnd, AnsweredLink, AnsweredPath, AnsweredPlace, EndReference, EndState, PlacedPose};
 pub use rebuild::RebuiltMap;
-pub use search::{FoundCounts, Objective, SearchLevel, SearchOrder, SearchSummary};
+pub use search::{FoundCounts, SearchLevel, SearchObjective, SearchOrder, SearchSummary};
 pub use text::Listing;
 pub use verdict::{Verdict, VerdictKind};
 pub use visit::{AnsweredVisit, Finding, VisitRecord};

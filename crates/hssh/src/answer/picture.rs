@@ -1,6 +1,6 @@
 //! Pictures of answered maps: as SVG and as Graphviz DOT.
 
-use hssh_draw::{Bearings, Layout, LayoutError, MapOptions, draw_map, map_to_dot};
+use hssh_draw::{Bearings, Drawing, DrawingError, MapOptions, draw_map, map_to_dot};
 use hssh_metrics::Pose;
 use hssh_topology::PlaceId;
 use nalgebra::Matrix2;
@@ -13,7 +13,7 @@ use super::rebuild::RebuiltMap;
 #[derive(Clone, Debug)]
 pub struct MapPicture {
     rebuilt: RebuiltMap,
-    layout: Layout,
+    drawing: Drawing,
     options: MapOptions,
 }
 
@@ -25,11 +25,11 @@ pub enum PictureError {
     Map(#[from] DisagreementError),
     /// It cannot be laid out.
     #[error("cannot lay out the map: {0}")]
-    Layout(#[from] LayoutError),
+    Drawing(#[from] DrawingError),
 }
 
 impl MapPicture {
-    /// The picture of a map under a title: with its places where they are if that is known, else in a schematic layout.
+    /// The picture of a map under a title: with its places where they are if that is known, else in a schematic drawing.
     ///
     /// # Errors
     /// If the visits of the map do not lead to it, or it cannot be laid out.
@@ -42,11 +42,11 @@ impl MapPicture {
             .iter()
             .map(|place| place.pose.map(|pose| Pose { x: pose.x, y: pose.y, theta: pose.theta }))
             .collect();
-        let layout = match placed {
+        let drawing = match placed {
             Some(poses) => {
-                Layout::measured(&rebuilt.map, poses, &bearings)?.with_covariances(covariances(map))
+                Drawing::measured(&rebuilt.map, poses, &bearings)?.with_covariances(covariances(map))
             }
-            None => Layout::schematic(&rebuilt.map, &bearings)?,
+            None => Drawing::schematic(&rebuilt.map, &bearings)?,
         };
         let options = MapOptions {
             title,
@@ -54,13 +54,13 @@ impl MapPicture {
             star_names: map.places.iter().map(|place| place.star.clone()).collect(),
             ..MapOptions::default()
         };
-        Ok(MapPicture { rebuilt, layout, options })
+        Ok(MapPicture { rebuilt, drawing, options })
     }
 
     /// As SVG.
     #[must_use]
     pub fn to_svg(&self) -> String {
-        draw_map(&self.rebuilt.map, &self.layout, &self.options)
+        draw_map(&self.rebuilt.map, &self.drawing, &self.options)
     }
 
     /// For Graphviz.

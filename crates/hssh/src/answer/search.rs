@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 /// What makes one map better than another.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
-pub enum Objective {
+pub enum SearchObjective {
     /// The order of preference over topology (section 2.3.2).
     Preference,
     /// The posterior probability, given measured travels (chapter 4).
@@ -64,7 +64,7 @@ pub struct FoundCounts {
 #[derive(Clone, PartialEq, Debug, Serialize, Deserialize)]
 pub struct SearchSummary {
     /// What made one map better than another.
-    pub objective: Objective,
+    pub objective: SearchObjective,
     /// In which order hypotheses were looked at.
     pub order: SearchOrder,
     /// Whether closed maps only were accepted.
@@ -102,22 +102,26 @@ impl SearchSummary {
     pub fn name(&self) -> &'static str {
         match (self.objective, self.order, self.closed_only) {
             (_, SearchOrder::Count, _) => "exhaustive counting",
-            (Objective::Preference, SearchOrder::BreadthFirst, _) => "breadth-first",
-            (Objective::Preference, SearchOrder::BestFirst, false) => "best-first",
-            (Objective::Preference, SearchOrder::BestFirst, true) => "best-first, back until closed",
-            (Objective::Preference, SearchOrder::Cyclic, false) => "cyclic best-first with proof",
-            (Objective::Preference, SearchOrder::Cyclic, true) => "cyclic best-first with proof, closed maps",
-            (Objective::Preference, SearchOrder::Proof, false) => "best-first with proof",
-            (Objective::Preference, SearchOrder::Proof, true) => "best-first with proof, closed maps",
-            (Objective::Posterior, SearchOrder::BreadthFirst, _) => "breadth-first by posterior",
-            (Objective::Posterior, SearchOrder::BestFirst, false) => "best-first by posterior",
-            (Objective::Posterior, SearchOrder::BestFirst, true) => {
+            (SearchObjective::Preference, SearchOrder::BreadthFirst, _) => "breadth-first",
+            (SearchObjective::Preference, SearchOrder::BestFirst, false) => "best-first",
+            (SearchObjective::Preference, SearchOrder::BestFirst, true) => "best-first, back until closed",
+            (SearchObjective::Preference, SearchOrder::Cyclic, false) => "cyclic best-first with proof",
+            (SearchObjective::Preference, SearchOrder::Cyclic, true) => {
+                "cyclic best-first with proof, closed maps"
+            }
+            (SearchObjective::Preference, SearchOrder::Proof, false) => "best-first with proof",
+            (SearchObjective::Preference, SearchOrder::Proof, true) => "best-first with proof, closed maps",
+            (SearchObjective::Posterior, SearchOrder::BreadthFirst, _) => "breadth-first by posterior",
+            (SearchObjective::Posterior, SearchOrder::BestFirst, false) => "best-first by posterior",
+            (SearchObjective::Posterior, SearchOrder::BestFirst, true) => {
                 "best-first by posterior, back until closed"
             }
-            (Objective::Posterior, SearchOrder::Cyclic, false) => "posterior with proof",
-            (Objective::Posterior, SearchOrder::Cyclic, true) => "posterior with proof, closed maps",
-            (Objective::Posterior, SearchOrder::Proof, false) => "posterior with proof, least bound first",
-            (Objective::Posterior, SearchOrder::Proof, true) => {
+            (SearchObjective::Posterior, SearchOrder::Cyclic, false) => "posterior with proof",
+            (SearchObjective::Posterior, SearchOrder::Cyclic, true) => "posterior with proof, closed maps",
+            (SearchObjective::Posterior, SearchOrder::Proof, false) => {
+                "posterior with proof, least bound first"
+            }
+            (SearchObjective::Posterior, SearchOrder::Proof, true) => {
                 "posterior with proof, least bound first, closed maps"
             }
         }

@@ -6,7 +6,7 @@ use hssh_topology::Axiom;
 
 use super::certificate::Worth;
 use super::map::AnsweredMap;
-use super::search::{Objective, SearchOrder};
+use super::search::{SearchObjective, SearchOrder};
 use super::verdict::VerdictKind;
 use super::{Answer, Assumption, WarningKind};
 
@@ -67,7 +67,7 @@ impl Answer {
             ("nodes", Some(search.nodes)),
             ("maps", Some(search.maps_made)),
             ("refuted", Some(search.refuted)),
-            ("layouts solved", (search.objective == Objective::Posterior).then_some(search.layouts)),
+            ("layouts solved", (search.objective == SearchObjective::Posterior).then_some(search.layouts)),
             ("final maps", Some(found.maps)),
             ("nearly closed", found.nearly_closed),
             ("closed", Some(found.closed)),
@@ -104,7 +104,7 @@ impl Answer {
         if let Some(best) = &certificate.best {
             let _ = writeln!(text, "  best          {}", worth(best));
         }
-        if self.search.order == SearchOrder::Proof || self.search.objective == Objective::Posterior {
+        if self.search.order == SearchOrder::Proof || self.search.objective == SearchObjective::Posterior {
             let open = match &certificate.open {
                 Some(open) => format!("any map that was not found has at least {}", worth(open)),
                 None => "nothing is left open".to_owned(),
@@ -158,7 +158,7 @@ impl Answer {
         if self.maps.is_empty() {
             return String::new();
         }
-        let is_posterior = self.search.objective == Objective::Posterior;
+        let is_posterior = self.search.objective == SearchObjective::Posterior;
         let mut text = "\n  rank".to_owned();
         if is_posterior {
             text += "   probability       cost     χ²/2";

@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 
 use super::certificate::CertificateSummary;
 use super::input::AnsweredInput;
-use super::search::{Objective, SearchOrder, SearchSummary};
+use super::search::{SearchObjective, SearchOrder, SearchSummary};
 use super::words::counted;
 
 /// What came of a search, for programs.
@@ -109,8 +109,8 @@ fn found(search: &SearchSummary, certificate: &CertificateSummary, kind: Verdict
     let maps = counted(found.maps as usize, "map");
     let explain = if found.maps == 1 { "explains" } else { "explain" };
     let (good, better) = match objective {
-        Objective::Preference => ("good", "better"),
-        Objective::Posterior => ("probable", "more probable"),
+        SearchObjective::Preference => ("good", "better"),
+        SearchObjective::Posterior => ("probable", "more probable"),
     };
     match (kind, order) {
         (VerdictKind::OneBest, SearchOrder::BreadthFirst | SearchOrder::Count) if found.maps == 1 => {
@@ -123,16 +123,18 @@ fn found(search: &SearchSummary, certificate: &CertificateSummary, kind: Verdict
             format!("{maps} {explain} {what}; {} are optimal.", found.tied)
         }
         (VerdictKind::OneBest, _) => match objective {
-            Objective::Preference => "one map is optimal; that no other is as good is proved.".to_owned(),
-            Objective::Posterior => {
+            SearchObjective::Preference => {
+                "one map is optimal; that no other is as good is proved.".to_owned()
+            }
+            SearchObjective::Posterior => {
                 "one map is the most probable; that no other is as probable is proved.".to_owned()
             }
         },
         (VerdictKind::SeveralBest, _) => match objective {
-            Objective::Preference => {
+            SearchObjective::Preference => {
                 format!("{} maps are optimal; that no other is as good is proved.", found.tied)
             }
-            Objective::Posterior => {
+            SearchObjective::Posterior => {
                 format!("{} maps are equally {good}; that no other is as {good} is proved.", found.tied)
             }
         },

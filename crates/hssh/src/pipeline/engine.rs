@@ -17,7 +17,7 @@ use super::error::{PipelineError, SearchFailure};
 use super::options::{GenusOrder, MappingOptions, MetricalScore, PriorKind, SearchMethod};
 use crate::answer::{
     Assumption, CertificateSummary, CostItem, CostSheet, EndReference, FoundCounts, MapDifference,
-    MapMeasure, Objective, PartingVisit, SearchLevel, SearchOrder, SearchSummary, TestTravels, Trusted,
+    MapMeasure, PartingVisit, SearchLevel, SearchObjective, SearchOrder, SearchSummary, TestTravels, Trusted,
     Worth,
 };
 
@@ -74,8 +74,8 @@ impl Task<'_> {
         }
         let (objective, order) = self.method.objective_and_order();
         let builder = match objective {
-            Objective::Preference => self.builder(),
-            Objective::Posterior => self.builder().posterior(self.model()?),
+            SearchObjective::Preference => self.builder(),
+            SearchObjective::Posterior => self.builder().posterior(self.model()?),
         };
         let builder = builder.order(order).goal(self.goal()).proving(Proving {
             best: self.options.posterior.best,
@@ -97,7 +97,7 @@ impl Task<'_> {
             }
         };
         let measured =
-            objective == Objective::Posterior && self.options.posterior.score != MetricalScore::Ignored;
+            objective == SearchObjective::Posterior && self.options.posterior.score != MetricalScore::Ignored;
         Ok(Searched {
             summary: summary(&report, objective, search_order(order), self.options.search.closed),
             certificate: certificate(&report, measured),
@@ -110,7 +110,7 @@ impl Task<'_> {
     fn count(self) -> Result<Searched, PipelineError> {
         let report = self.builder().count(self.exploration).map_err(SearchFailure::from)?;
         Ok(Searched {
-            summary: summary(&report, Objective::Preference, SearchOrder::Count, false),
+            summary: summary(&report, SearchObjective::Preference, SearchOrder::Count, false),
             certificate: certificate(&report, false),
             explained: if report.finals.final_maps > 0 { report.explained as usize } else { 0 },
             ranking: Vec::new(),
@@ -219,16 +219,18 @@ impl Searched {
 
 impl SearchMethod {
     /// What is sought, and in which order.
-    fn objective_and_order(self) -> (Objective, Order) {
+    fn objective_and_order(self) -> (SearchObjective, Order) {
         match self {
-            SearchMethod::BreadthFirst | SearchMethod::Count => (Objective::Preference, Order::BreadthFirst),
-            SearchMethod::BestFirst => (Objective::Preference, Order::BestFirst),
-            SearchMethod::Cyclic => (Objective::Preference, Order::Cyclic),
-            SearchMethod::Proof => (Objective::Preference, Order::Proof),
-            SearchMethod::Posterior => (Objective::Posterior, Order::Cyclic),
-            SearchMethod::PosteriorBreadthFirst => (Objective::Posterior, Order::BreadthFirst),
-            SearchMethod::PosteriorBestFirst => (Objective::Posterior, Order::BestFirst),
-            SearchMethod::PosteriorProof => (Objective::Posterior, Order::Proof),
+            SearchMethod::BreadthFirst | SearchMethod::Count => {
+                (SearchObjective::Preference, Order::BreadthFirst)
+            }
+            SearchMethod::BestFirst => (SearchObjective::Preference, Order::BestFirst),
+            SearchMethod::Cyclic => (SearchObjective::Preference, Order::Cyclic),
+            SearchMethod::Proof => (SearchObjective::Preference, Order::Proof),
+            SearchMethod::Posterior => (SearchObjective::Posterior, Order::Cyclic),
+            SearchMethod::PosteriorBreadthFirst => (SearchObjective::Posterior, Order::BreadthFirst),
+            SearchMethod::PosteriorBestFirst => (SearchObjective::Posterior, Order::BestFirst),
+            SearchMethod::PosteriorProof => (SearchObjective::Posterior, Order::Proof),
         }
     }
 }
@@ -248,7 +250,12 @@ pub(super) fn measured(measure: Measure) -> MapMeasure {
     MapMeasure { undetermined_boundaries, paths, places, genus }
 }
 
-fn summary(report: &Report, objective: Objective, order: SearchOrder, closed_only: bool) -> SearchSummary {
+fn summary(
+    report: &Report,
+    objective: SearchObjective,
+    order: SearchOrder,
+    closed_only: bool,
+) -> SearchSummary {
     let finals = &report.finals;
     SearchSummary {
         objective,

@@ -3,7 +3,7 @@
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 
-use hssh::answer::{Answer, AnsweredMap, MapPicture, Objective};
+use hssh::answer::{Answer, AnsweredMap, MapPicture, SearchObjective};
 use hssh::pipeline::{Input, Mapped, PipelineError};
 use hssh_draw::{Bearings, TreeOptions, draw_tree, tree_to_dot};
 use hssh_local::{encode_png, write_map};
@@ -128,10 +128,10 @@ fn is_yaml(file: &Path) -> bool {
 /// What the best maps are, in the singular.
 fn kind(answer: &Answer) -> &'static str {
     match (answer.search.objective, answer.certificate.proved) {
-        (Objective::Preference, true) => "optimal map",
-        (Objective::Preference, false) => "best map found",
-        (Objective::Posterior, true) => "most probable map",
-        (Objective::Posterior, false) => "most probable map found",
+        (SearchObjective::Preference, true) => "optimal map",
+        (SearchObjective::Preference, false) => "best map found",
+        (SearchObjective::Posterior, true) => "most probable map",
+        (SearchObjective::Posterior, false) => "most probable map found",
     }
 }
 

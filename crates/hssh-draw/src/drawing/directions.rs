@@ -6,7 +6,7 @@ use std::f64::consts::{FRAC_PI_2, PI, TAU};
 use hssh_topology::{PlaceId, StarId, TopologicalMap};
 use nalgebra::{DMatrix, DVector};
 
-use super::LayoutError;
+use super::DrawingError;
 
 /// Bearings of the ends of stars, as far as they were measured.
 ///
@@ -28,7 +28,7 @@ impl Bearings {
 }
 
 /// By oriented local path: the place it belongs to and its direction in that place's frame.
-pub(super) fn of_map(map: &TopologicalMap, bearings: &Bearings) -> Result<Vec<(PlaceId, f64)>, LayoutError> {
+pub(super) fn of_map(map: &TopologicalMap, bearings: &Bearings) -> Result<Vec<(PlaceId, f64)>, DrawingError> {
     let mut ends = Vec::new();
     for place in map.places() {
         let star = map.star(place);
@@ -39,11 +39,11 @@ pub(super) fn of_map(map: &TopologicalMap, bearings: &Bearings) -> Result<Vec<(P
             [] => plain(&opposite),
             _ if given.len() != opposite.len() => {
                 let (ends, given) = (opposite.len(), given.len());
-                return Err(LayoutError::BearingCount { star, ends, given });
+                return Err(DrawingError::BearingCount { star, ends, given });
             }
             _ if given.iter().all(Option::is_none) => plain(&opposite),
             _ => between_measured(given)
-                .ok_or_else(|| LayoutError::NotClockwise { star, bearings: given.to_vec() })?,
+                .ok_or_else(|| DrawingError::NotClockwise { star, bearings: given.to_vec() })?,
         };
         ends.extend(directions.into_iter().map(|direction| (place, direction)));
     }

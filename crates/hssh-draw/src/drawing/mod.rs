@@ -18,21 +18,21 @@ use crate::svg::Point;
 /// A pose for each place of a map and a direction for each end of its stars.
 ///
 /// x points right and y up, angles are radians, counterclockwise from the x axis. The unit of length is
-/// the caller's for a measured layout; in a schematic one a link is about 1 long.
+/// the caller's for a measured drawing; in a schematic one a link is about 1 long.
 #[derive(Clone, PartialEq, Debug)]
-pub struct Layout {
+pub struct Drawing {
     /// By place.
     poses: Vec<Pose>,
     /// By oriented local path: the place it belongs to and its direction in that place's frame.
     ends: Vec<(PlaceId, f64)>,
     unit: f64,
-    /// By place, where known: m², along the layout's axes.
+    /// By place, where known: m², along the drawing's axes.
     covariances: Vec<Matrix2<f64>>,
 }
 
-/// Why there is no layout.
+/// Why there is no drawing.
 #[derive(Clone, PartialEq, Debug, thiserror::Error)]
-pub enum LayoutError {
+pub enum DrawingError {
     /// Another number of poses than places.
     #[error("{given} poses were given for a map of {places} places: give one for each place, in order")]
     PoseCount {
@@ -71,13 +71,13 @@ pub enum LayoutError {
         /// The bearings.
         bearings: Vec<Option<f64>>,
     },
-    /// The pose graph of a schematic layout has no solution.
-    #[error("no schematic layout: {0}")]
+    /// The pose graph of a schematic drawing has no solution.
+    #[error("no schematic drawing: {0}")]
     Solve(#[from] SolveError),
 }
 
-impl Layout {
-    /// The layout with these poses, one for each place in order: position and heading of the place's frame.
+impl Drawing {
+    /// The drawing with these poses, one for each place in order: position and heading of the place's frame.
     ///
     /// # Errors
     /// If there are more or fewer poses than places, if one is not finite, or if bearings contradict the
@@ -86,22 +86,22 @@ impl Layout {
         map: &TopologicalMap,
         poses: Vec<Pose>,
         bearings: &Bearings,
-    ) -> Result<Self, LayoutError> {
+    ) -> Result<Self, DrawingError> {
         let (given, places) = (poses.len(), map.place_count() as usize);
         if given != places {
-            return Err(LayoutError::PoseCount { given, places });
+            return Err(DrawingError::PoseCount { given, places });
         }
         for (place, &pose) in map.places().zip(&poses) {
             if !pose.is_finite() {
-                return Err(LayoutError::NotFinite { place, pose });
+                return Err(DrawingError::NotFinite { place, pose });
             }
         }
         let ends = directions::of_map(map, bearings)?;
         let unit = median_link_length(map, &poses);
-        Ok(Layout { poses, ends, unit, covariances: Vec::new() })
+        Ok(Drawing { poses, ends, unit, covariances: Vec::new() })
     }
 
-    /// A layout from the map alone: links about 1 long, paths as straight as they can be, places apart.
+    /// A drawing from the map alone: links about 1 long, paths as straight as they can be, places apart.
     ///
     /// Each link says that the far place lies one unit along the near end's direction, looking so that its
     /// own end points back; all of them together are a pose graph, with the first place held at the origin.
@@ -110,17 +110,17 @@ impl Layout {
     ///
     /// # Errors
     /// If bearings contradict the clockwise order of their star.
-    pub fn schematic(map: &TopologicalMap, bearings: &Bearings) -> Result<Self, LayoutError> {
+    pub fn schematic(map: &TopologicalMap, bearings: &Bearings) -> Result<Self, DrawingError> {
         let ends = directions::of_map(map, bearings)?;
         let poses = schematic::poses(map, &ends)?;
-        Ok(Layout { poses, ends, unit: 1.0, covariances: Vec::new() })
+        Ok(Drawing { poses, ends, unit: 1.0, covariances: Vec::new() })
     }
 
-    /// The same layout with the covariances of the places' positions, in the order of the places: drawn as
+    /// The same drawing with the covariances of the places' positions, in the order of the places: drawn as
     /// ellipses that hold the true position with a probability of 95 %.
     #[must_use]
     pub fn with_covariances(self, covariances: Vec<Matrix2<f64>>) -> Self {
-        Layout { covariances, ..self }
+        Drawing { covariances, ..self }
     }
 
     /// The corners of the ellipse that holds a place with a probability of 95 %, if it is known and there is one.
@@ -132,7 +132,7 @@ impl Layout {
     /// Position and heading of a place.
     ///
     /// # Panics
-    /// If the place is not in the map that the layout was made for.
+    /// If the place is not in the map that the drawing was made for.
     #[must_use]
     pub fn pose(&self, place: PlaceId) -> Pose {
         self.poses[place.index()]
@@ -141,7 +141,7 @@ impl Layout {
     /// The direction in which an end of a star leaves its place.
     ///
     /// # Panics
-    /// If the end is not in the map that the layout was made for.
+    /// If the end is not in the map that the drawing was made for.
     #[must_use]
     pub fn direction(&self, olp: MapOlp) -> f64 {
         let (place, direction) = self.ends[olp.index()];

@@ -1,4 +1,4 @@
-//! Moving places apart that a schematic layout puts on each other or on a link, while links keep as much
+//! Moving places apart that a schematic drawing puts on each other or on a link, while links keep as much
 //! of their length and direction as they can.
 
 use hssh_metrics::{Pose, wrap_angle};
@@ -13,7 +13,7 @@ use crate::svg::{Point, toward};
 const PLACE_DISTANCE: f64 = 1.1;
 /// A place closer than that to a link of others is pushed off it.
 const LINK_DISTANCE: f64 = 0.5;
-/// Places nearer than that make a layout illegible.
+/// Places nearer than that make a drawing illegible.
 const LEGIBLE_DISTANCE: f64 = 0.7;
 /// So does a place farther than that from where a link wants it.
 const LEGIBLE_MISFIT: f64 = 0.25;
