@@ -24,7 +24,7 @@ pub(crate) struct Arguments {
 #[derive(Debug, Subcommand)]
 pub(crate) enum Command {
     /// Find the maps that explain an exploration, print the best and draw them.
-    Map(MapArguments),
+    Map(Box<MapArguments>),
     /// Read an exploration and say what is in it, or what is wrong with it.
     Check(CheckArguments),
     /// Tell step by step how the best map explains an exploration.
