@@ -45,9 +45,7 @@ impl Answer {
             return Some(format!("the best map has a probability of at most {most:.2}"));
         }
         (least < 0.5).then(|| {
-            format!(
-                "the best map is all that is known of it: its probability is between {least:.2} and {most:.2}"
-            )
+            format!("how probable the best map is, is hardly known: between {least:.2} and {most:.2}")
         })
     }
 
