@@ -50,7 +50,7 @@ fn full() -> Answer {
     answer.input.scans = Some(3);
     answer.input.scans_used = Some(2);
     answer.input.evidence =
-        Some(AnsweredEvidence { returns: 3, contradicted: 1, unconfirmed: 2, probability: 0.875 });
+        Some(AnsweredEvidence { returns: 3, contradicted: 1, unconfirmed: 2, lost: 1, probability: 0.875 });
     answer.search.found =
         FoundCounts { nearly_closed: Some(1), perpendicular: Some(1), ..answer.search.found };
     answer.search.removals = Some(hssh::topology::Removals::default());
@@ -163,6 +163,8 @@ fn every_word_is_documented() {
         WarningKind::ContradictedReturn,
         WarningKind::UnconfirmedReturn,
         WarningKind::ImprobableTravel,
+        WarningKind::Lost,
+        WarningKind::NoOdometry,
         WarningKind::NoPoses,
         WarningKind::FewerThreads,
     ]));

@@ -11,6 +11,8 @@ use super::options::MatchOptions;
 use crate::carmen::LaserLog;
 use crate::scan::Scan;
 
+/// Of a scan that lies on nothing the hits' mean log-likelihood is below this, in nats: 0 is perfect, −3 hits nothing.
+const LOST: f64 = -1.2;
 /// A search this wide, in metres, is made with a part of the surfaces.
 const WIDE: f64 = 0.5;
 
@@ -30,6 +32,9 @@ pub struct TrackedScan {
 pub struct Track {
     /// As many as the log has scans.
     pub scans: Vec<TrackedScan>,
+    /// The scans that lie on nothing that was seen before, wherever they are put: there the robot is lost, or it came
+    /// around a corner in one step.
+    pub lost: Vec<usize>,
 }
 
 impl Track {
@@ -71,6 +76,8 @@ impl Reference {
 pub struct Tracker {
     options: MatchOptions,
     last: Option<TrackedScan>,
+    /// How well the last scan fits: the hits' mean log-likelihood.
+    fit: f64,
     keyframes: VecDeque<Keyframe>,
     reference: Reference,
 }
@@ -80,7 +87,7 @@ impl Tracker {
     #[must_use]
     pub fn new(options: MatchOptions) -> Self {
         let reference = Reference::new(std::iter::empty(), Pose::IDENTITY, &options);
-        Tracker { options, last: None, keyframes: VecDeque::new(), reference }
+        Tracker { options, last: None, fit: 0.0, keyframes: VecDeque::new(), reference }
     }
 
     /// Where the next scan was taken. `odometry` has the raw poses since the scan before, that of the scan
@@ -95,8 +102,10 @@ impl Tracker {
             Some(last) => {
                 let motion = self.options.odometry.motion(odometry);
                 let step = matched(&self.reference, &seen, last.pose, &motion, &self.options);
+                let pose = last.pose.compose(step.mean);
+                self.fit = self.reference.field.fit(&seen, pose);
                 TrackedScan {
-                    pose: last.pose.compose(step.mean),
+                    pose,
                     step: Some(step),
                     travelled: last.travelled + step.mean.translation().norm(),
                 }
@@ -113,6 +122,14 @@ impl Tracker {
     }
 }
 
+impl Tracker {
+    /// Whether the last scan lies on nothing that was seen before.
+    #[must_use]
+    pub fn is_lost(&self) -> bool {
+        self.fit < LOST
+    }
+}
+
 /// Tracks the robot through a log. `progress` is told after each scan how many are done.
 pub fn track(log: &LaserLog, options: &MatchOptions, mut progress: impl FnMut(usize)) -> Track {
     let mut tracker = Tracker::new(*options);
@@ -121,6 +138,9 @@ pub fn track(log: &LaserLog, options: &MatchOptions, mut progress: impl FnMut(us
     for (index, logged) in log.scans.iter().enumerate() {
         track.scans.push(tracker.add(&logged.scan, &log.trajectory[before..=logged.moment]));
         before = logged.moment;
+        if tracker.is_lost() {
+            track.lost.push(index);
+        }
         progress(index + 1);
     }
     track

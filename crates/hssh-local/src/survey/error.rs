@@ -31,6 +31,20 @@ pub enum SurveyWarning {
         /// The earlier one, counted from 1.
         earlier: usize,
     },
+    /// Scans that lie on nothing.
+    #[error(
+        "scans {first} to {last} lie on nothing that was seen before, wherever they are put: the robot is lost there, \
+         its odometry is wrong, or scans are missing"
+    )]
+    Lost {
+        /// The first of them, counted from 1.
+        first: usize,
+        /// The last of them, counted from 1.
+        last: usize,
+    },
+    /// Odometry that stands still.
+    #[error("the log has no odometry: it stands still while the scans move, and scans alone lose their way")]
+    NoOdometry,
 }
 
 /// Why there is no survey or no exploration.

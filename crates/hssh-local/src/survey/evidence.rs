@@ -28,6 +28,9 @@ pub struct Evidence {
     pub contradicted: usize,
     /// How many times the robot seems to be back and the laser does not show it.
     pub unconfirmed: usize,
+    /// On how many stretches the robot was lost: scans lie on nothing that was seen before, wherever they are put. A log
+    /// without odometry counts as one.
+    pub lost: usize,
 }
 
 /// How often a survey errs: what the probabilities of its maps are multiplied with.
@@ -39,11 +42,13 @@ pub struct PerceptionModel {
     pub contradicted: f64,
     /// The robot was back somewhere else, or not at all, where the laser does not show it.
     pub unconfirmed: f64,
+    /// Something is wrong with the map where the robot was lost.
+    pub lost: f64,
 }
 
 impl Default for PerceptionModel {
     fn default() -> Self {
-        PerceptionModel { wrong_return: 0.002, contradicted: 0.1, unconfirmed: 0.02 }
+        PerceptionModel { wrong_return: 0.002, contradicted: 0.1, unconfirmed: 0.02, lost: 0.7 }
     }
 }
 
@@ -55,6 +60,7 @@ impl Evidence {
         all(model.wrong_return, self.returns)
             * all(model.contradicted, self.contradicted)
             * all(model.unconfirmed, self.unconfirmed)
+            * all(model.lost, self.lost)
     }
 }
 
@@ -153,7 +159,7 @@ mod tests {
                 scans.push(TrackedScan { pose, step: None, travelled });
             }
         }
-        Track { scans }
+        Track { scans, lost: Vec::new() }
     }
 
     /// One scan for each half metre, so that `at` metres of travel are reached with the scan before `2 at`.
@@ -238,7 +244,7 @@ mod tests {
             errors in prop::array::uniform3(0.0_f64..=1.0),
         ) {
             let model =
-                PerceptionModel { wrong_return: errors[0], contradicted: errors[1], unconfirmed: errors[2] };
+                PerceptionModel { wrong_return: errors[0], contradicted: errors[1], unconfirmed: errors[2], lost: 0.0 };
             let evidence = Evidence { returns, contradicted, unconfirmed };
             let probability = evidence.probability(&model);
             prop_assert!((0.0..=1.0).contains(&probability));
@@ -250,7 +256,7 @@ mod tests {
                 prop_assert!(more.probability(&model) <= probability);
             }
             let right = (1.0 - 0.25_f64).powi(2) * (1.0 - 0.5) * (1.0 - 0.125);
-            let model = PerceptionModel { wrong_return: 0.25, contradicted: 0.5, unconfirmed: 0.125 };
+            let model = PerceptionModel { wrong_return: 0.25, contradicted: 0.5, unconfirmed: 0.125, lost: 0.5 };
             let two_one_one = Evidence { returns: 2, contradicted: 1, unconfirmed: 1 };
             prop_assert!((two_one_one.probability(&model) - right).abs() < 1e-12);
         }

@@ -5,6 +5,7 @@ use hssh_metrics::Pose;
 
 use super::error::SurveyError;
 use super::evidence::evidence;
+use super::lost::lost;
 use super::options::SurveyOptions;
 use super::visit::{Survey, Visit};
 use crate::carmen::LaserLog;
@@ -63,7 +64,10 @@ pub fn survey(
             grid: building.window(center.into(), options.window).unwrap_or_else(|| building.clone()),
         }
     });
-    let (evidence, warnings) = evidence(&track, &closed.closures);
+    let (mut evidence, mut warnings) = evidence(&track, &closed.closures);
+    let lost = lost(log, &track);
+    evidence.lost = lost.len();
+    warnings.extend(lost);
     Survey::new(visits.collect(), track, closed.closures, evidence, options, warnings)
 }
 

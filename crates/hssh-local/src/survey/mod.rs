@@ -5,6 +5,7 @@ mod error;
 mod evidence;
 mod explore;
 mod follow;
+mod lost;
 mod options;
 mod resemblance;
 mod turn;

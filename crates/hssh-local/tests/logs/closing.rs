@@ -27,7 +27,7 @@ fn believing(odometry: &[Pose]) -> Track {
         travelled += step.map_or(0.0, |step| step.mean.translation().norm());
         TrackedScan { pose: odometry[0].between(odometry[index]), step, travelled }
     };
-    Track { scans: (0..odometry.len()).map(scan).collect() }
+    Track { scans: (0..odometry.len()).map(scan).collect(), lost: Vec::new() }
 }
 
 struct Closed {

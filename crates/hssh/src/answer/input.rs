@@ -21,6 +21,8 @@ pub struct AnsweredEvidence {
     pub contradicted: u64,
     /// How many times the robot seems to be back and the laser does not show it.
     pub unconfirmed: u64,
+    /// On how many stretches the robot was lost; no odometry at all counts as one.
+    pub lost: u64,
     /// How probable it is that none of this misleads; a factor of the probability of every map.
     pub probability: f64,
 }

@@ -8,7 +8,7 @@ use super::certificate::Worth;
 use super::map::AnsweredMap;
 use super::search::{SearchObjective, SearchOrder};
 use super::verdict::VerdictKind;
-use super::{Answer, Assumption, WarningKind};
+use super::{Answer, AnswerWarning, Assumption, WarningKind};
 
 /// What to print of an answer.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
@@ -36,8 +36,13 @@ impl Answer {
     /// Why the best map may well be wrong, if it may.
     #[must_use]
     pub fn doubt(&self) -> Option<String> {
-        let improbable = self.warnings.iter().find(|warning| warning.kind == WarningKind::ImprobableTravel);
-        if let Some(warning) = improbable {
+        let is_serious = |warning: &&AnswerWarning| {
+            matches!(
+                warning.kind,
+                WarningKind::ImprobableTravel | WarningKind::Lost | WarningKind::NoOdometry
+            )
+        };
+        if let Some(warning) = self.warnings.iter().find(is_serious) {
             return Some(warning.to_string());
         }
         let [least, most] = self.maps.first()?.probability?;

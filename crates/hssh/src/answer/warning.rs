@@ -26,6 +26,10 @@ pub enum WarningKind {
     ContradictedReturn,
     /// The robot seems to be back, and what the laser shows does not confirm it.
     UnconfirmedReturn,
+    /// Scans that lie on nothing that was seen before.
+    Lost,
+    /// Odometry that stands still while the scans move.
+    NoOdometry,
     /// The best map bends a measured travel by more than its covariance can explain.
     ImprobableTravel,
     /// The places of a map have no poses although travels were measured.

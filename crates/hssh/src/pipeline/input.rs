@@ -141,6 +141,7 @@ impl SurveyedLog {
             returns: evidence.returns as u64,
             contradicted: evidence.contradicted as u64,
             unconfirmed: evidence.unconfirmed as u64,
+            lost: evidence.lost as u64,
             probability: evidence.probability(&PerceptionModel::default()),
         }
     }
@@ -183,6 +184,8 @@ impl SurveyedLog {
             let (kind, scan) = match *warning {
                 SurveyWarning::Contradicted { scan, .. } => (WarningKind::ContradictedReturn, scan),
                 SurveyWarning::Unconfirmed { scan, .. } => (WarningKind::UnconfirmedReturn, scan),
+                SurveyWarning::Lost { first, .. } => (WarningKind::Lost, first),
+                SurveyWarning::NoOdometry => (WarningKind::NoOdometry, 1),
             };
             let spot = Spot::Scan(self.scan_number(scan - 1));
             AnswerWarning::record(&mut warnings, kind, spot, || warning.to_string());

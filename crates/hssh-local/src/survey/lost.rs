@@ -1,0 +1,80 @@
+//! Where a robot was lost: its scans lie on nothing that it saw before, or it has no odometry.
+
+use hssh_metrics::Pose;
+
+use super::error::SurveyWarning;
+use crate::carmen::LaserLog;
+use crate::matching::Track;
+
+/// Where the robot was lost: so many scans in a row, or so large a part of all, lie on nothing that was seen before; or
+/// it has no odometry at all.
+pub(super) fn lost(log: &LaserLog, track: &Track) -> Vec<SurveyWarning> {
+    const IN_A_ROW: usize = 5;
+    const PART: f64 = 0.2;
+    let mut warnings = Vec::new();
+    let first = log.trajectory.first().copied().unwrap_or_default();
+    let stands = |pose: &Pose| {
+        let moved = first.between(*pose);
+        moved.translation().norm() < 0.01 && moved.theta.abs() < 0.01
+    };
+    let has_moved = track.scans.last().is_some_and(|last| last.travelled > 1.0);
+    if has_moved && log.trajectory.iter().all(stands) {
+        warnings.push(SurveyWarning::NoOdometry);
+    }
+    let mut runs: Vec<(usize, usize)> = Vec::new();
+    for &scan in &track.lost {
+        match runs.last_mut() {
+            Some((_, last)) if *last + 1 == scan => *last = scan,
+            _ => runs.push((scan, scan)),
+        }
+    }
+    let long = runs.iter().filter(|(first, last)| last - first + 1 >= IN_A_ROW);
+    warnings.extend(long.map(|&(first, last)| SurveyWarning::Lost { first: first + 1, last: last + 1 }));
+    if warnings.is_empty() && track.lost.len() as f64 > PART * track.scans.len() as f64 {
+        warnings.push(SurveyWarning::Lost {
+            first: track.lost[0] + 1,
+            last: track.lost[track.lost.len() - 1] + 1,
+        });
+    }
+    warnings
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::matching::TrackedScan;
+
+    /// A log whose odometry advances by `step` metres from scan to scan.
+    fn log(step: f64) -> LaserLog {
+        let line =
+            |scan: u32| format!("FLASER 3 1 2 1 0 0 0 {} 0 0 {scan} host {scan}\n", f64::from(scan) * step);
+        let text: String = (0..40).map(line).collect();
+        LaserLog::read(text.as_bytes()).unwrap()
+    }
+
+    fn track(lost: &[usize]) -> Track {
+        let scan = |scan: u32| {
+            let x = f64::from(scan) * 0.5;
+            TrackedScan { pose: Pose::new(x, 0.0, 0.0), step: None, travelled: x }
+        };
+        Track { scans: (0..40).map(scan).collect(), lost: lost.to_vec() }
+    }
+
+    #[test]
+    fn a_scan_here_and_there_is_no_loss() {
+        assert_eq!(lost(&log(0.5), &track(&[3, 4, 9, 20])), []);
+    }
+
+    #[test]
+    fn many_in_a_row_or_in_all_are() {
+        let row = lost(&log(0.5), &track(&[3, 10, 11, 12, 13, 14, 30]));
+        assert_eq!(row, [SurveyWarning::Lost { first: 11, last: 15 }]);
+        let many: Vec<usize> = (0..40).step_by(3).collect();
+        assert_eq!(lost(&log(0.5), &track(&many)), [SurveyWarning::Lost { first: 1, last: 40 }]);
+    }
+
+    #[test]
+    fn a_robot_that_moves_without_odometry_has_none() {
+        assert_eq!(lost(&log(0.0), &track(&[])), [SurveyWarning::NoOdometry]);
+    }
+}
