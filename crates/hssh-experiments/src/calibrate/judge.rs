@@ -57,6 +57,8 @@ impl Errors {
                 SurveyWarning::Unconfirmed { scan, earlier } => {
                     errors.unconfirmed.add(is_lost(earlier - 1, scan - 1));
                 }
+                // Neither tells of a return.
+                SurveyWarning::Lost { .. } | SurveyWarning::NoOdometry => {}
             }
         }
         for (earlier, later) in true_returns(&survey.track, truth) {

@@ -245,7 +245,7 @@ mod tests {
         ) {
             let model =
                 PerceptionModel { wrong_return: errors[0], contradicted: errors[1], unconfirmed: errors[2], lost: 0.0 };
-            let evidence = Evidence { returns, contradicted, unconfirmed };
+            let evidence = Evidence { returns, contradicted, unconfirmed, lost: 0 };
             let probability = evidence.probability(&model);
             prop_assert!((0.0..=1.0).contains(&probability));
             for more in [
@@ -257,7 +257,7 @@ mod tests {
             }
             let right = (1.0 - 0.25_f64).powi(2) * (1.0 - 0.5) * (1.0 - 0.125);
             let model = PerceptionModel { wrong_return: 0.25, contradicted: 0.5, unconfirmed: 0.125, lost: 0.5 };
-            let two_one_one = Evidence { returns: 2, contradicted: 1, unconfirmed: 1 };
+            let two_one_one = Evidence { returns: 2, contradicted: 1, unconfirmed: 1 , lost: 0};
             prop_assert!((two_one_one.probability(&model) - right).abs() < 1e-12);
         }
     }
