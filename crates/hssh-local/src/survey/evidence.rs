@@ -2,7 +2,6 @@
 //! that, and where the robot seems to be back although the laser does not show it.
 
 use super::error::SurveyWarning;
-use super::visit::Survey;
 use crate::closing::Closure;
 use crate::matching::Track;
 
@@ -64,14 +63,6 @@ impl Evidence {
     }
 }
 
-impl Survey {
-    /// The closures by which the laser shows that the robot was back: those of each return together, by the later scan.
-    #[must_use]
-    pub fn returns(&self) -> Vec<Vec<Closure>> {
-        stretches(&self.track, self.closures.iter().filter(|closure| closure.weight >= BELIEVED))
-    }
-}
-
 /// The evidence for a closed track, and what there is to say about it.
 pub(super) fn evidence(track: &Track, closures: &[Closure]) -> (Evidence, Vec<SurveyWarning>) {
     let (believed, contradicted): (Vec<Closure>, Vec<Closure>) =
@@ -90,7 +81,10 @@ pub(super) fn evidence(track: &Track, closures: &[Closure]) -> (Evidence, Vec<Su
 }
 
 /// Closures that follow one another along a stretch of the way, together.
-fn stretches<'a>(track: &Track, closures: impl IntoIterator<Item = &'a Closure>) -> Vec<Vec<Closure>> {
+pub(super) fn stretches<'a>(
+    track: &Track,
+    closures: impl IntoIterator<Item = &'a Closure>,
+) -> Vec<Vec<Closure>> {
     let at = |scan: usize| track.scans[scan].travelled;
     let mut stretches: Vec<Vec<Closure>> = Vec::new();
     for closure in closures {

@@ -8,6 +8,7 @@ mod follow;
 mod lost;
 mod options;
 mod resemblance;
+mod returns;
 mod turn;
 mod visit;
 

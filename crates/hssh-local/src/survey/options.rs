@@ -26,8 +26,8 @@ pub struct SurveyOptions {
 }
 
 impl SurveyOptions {
-    /// The same options for ways out that lead `depth` metres on, with windows and local maps as large, and hindsight
-    /// as long, as it takes to see so far.
+    /// The same options for ways out that lead `depth` metres on, with windows and local maps as large
+    /// as it takes to see so far.
     #[must_use]
     pub fn with_depth(mut self, depth: f64) -> Self {
         self.place = self.place.with_depth(depth);

@@ -5,7 +5,7 @@ use hssh_topology::{Olp, PlaceId, Position};
 use rustc_hash::FxHashMap;
 
 use super::error::{SurveyError, SurveyWarning};
-use super::evidence::{BELIEVED, CONFIRMING, Evidence};
+use super::evidence::Evidence;
 use super::options::SurveyOptions;
 use crate::closing::Closure;
 use crate::grid::OccupancyGrid;
@@ -84,21 +84,6 @@ impl Survey {
                 *place_of.entry(visit.spot).or_insert(position.place) == position.place
                     && *spot_of.entry(position.place).or_insert(visit.spot) == visit.spot
             })
-    }
-}
-
-impl Survey {
-    /// Whether the laser shows that a visit was to the spot of an earlier one: for this visit and one of those before there is a
-    /// closure nearby.
-    #[must_use]
-    pub fn shows_return(&self, later: usize) -> bool {
-        let at = |scan: usize| self.track.scans[scan].travelled;
-        let is_near = |visit: &Visit, scan: usize| (at(visit.reference) - at(scan)).abs() < CONFIRMING;
-        let (before, [visit, ..]) = self.visits.split_at(later) else { return false };
-        let earlier: Vec<&Visit> = before.iter().filter(|earlier| earlier.spot == visit.spot).collect();
-        self.closures.iter().filter(|closure| closure.weight >= BELIEVED).any(|closure| {
-            is_near(visit, closure.later) && earlier.iter().any(|earlier| is_near(earlier, closure.earlier))
-        })
     }
 }
 
