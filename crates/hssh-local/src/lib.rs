@@ -3,6 +3,7 @@
 mod carmen;
 mod closing;
 mod distance;
+mod geodesic;
 mod global_map;
 mod grid;
 mod local_map;

@@ -186,12 +186,12 @@ impl<'a> Closing<'a> {
     /// Of the matches of one submap those that no other one, elsewhere and nearly as good, makes doubtful.
     fn unambiguous(&self, found: &[Match]) -> Vec<Match> {
         let at = |found: &Match| told(found, |submap| self.pose(submap)).translation();
-        let is_doubtful = |one: &&Match| {
+        let is_clear = |one: &&Match| {
             !found.iter().any(|other| {
                 (at(one) - at(other)).norm() > 1.0 && other.score > self.options.ambiguity * one.score
             })
         };
-        found.iter().filter(is_doubtful).copied().collect()
+        found.iter().filter(is_clear).copied().collect()
     }
 
     /// Accepts the chains that end at a submap.
@@ -286,9 +286,8 @@ impl<'a> Closing<'a> {
 
     /// The robust minimum, and the corrections between keyframes.
     fn finish(self, track: &Track) -> Result<ClosedTrack, ClosingError> {
-        let tracked: Vec<(PoseId, PoseId)> =
-            self.graph.edges()[..self.tracked].iter().map(|edge| (edge.from, edge.to)).collect();
-        let is_closure = |edge: &Edge| tracked.binary_search(&(edge.from, edge.to)).is_err();
+        // Track edges lead from a keyframe to the next, closures never do.
+        let is_closure = |edge: &Edge| edge.to.0 != edge.from.0 + 1;
         let kernel = |edge: &Edge| is_closure(edge).then_some(Kernel::DynamicCovarianceScaling(KERNEL));
         let robust = solve_robustly(&self.graph, kernel, &Options::default())?;
         let scan = |submap: usize| self.keyframes[self.submaps[submap].middle].scan;

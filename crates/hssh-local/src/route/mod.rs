@@ -3,7 +3,6 @@
 
 #[cfg(test)]
 mod drawn;
-mod flood;
 mod network;
 mod options;
 mod paths;

@@ -2,8 +2,8 @@
 
 use hssh_metrics::Pose;
 
-use super::flood::{UNREACHED, flood};
 use super::options::RouteOptions;
+use crate::geodesic::Geodesic;
 use crate::grid::{Cell, Lattice, Occupancy, OccupancyGrid};
 
 /// The travelled cells of a building, free, and all others, occupied.
@@ -11,10 +11,10 @@ pub(super) fn travelled(building: &OccupancyGrid, poses: &[Pose], options: &Rout
     let lattice = *building.lattice();
     let way = cells_along(&lattice, poses);
     let is_free = |cell: Cell| building.get(cell) != Occupancy::Occupied;
-    let near = flood(&lattice, &way, options.lane, is_free);
-    let cells =
-        near.iter().map(|&near| if near == UNREACHED { Occupancy::Occupied } else { Occupancy::Free });
-    let mut grid = OccupancyGrid::new(lattice, cells.collect()).expect("there is one cell for each");
+    let near = Geodesic::from_nearest(&lattice, &way, options.lane, is_free);
+    let known = |cell: Cell| if near.nearest(cell).is_some() { Occupancy::Free } else { Occupancy::Occupied };
+    let mut grid = OccupancyGrid::new(lattice, lattice.cells().map(known).collect())
+        .expect("there is one cell for each");
     fill_islands(&mut grid, building, options);
     grid
 }

@@ -1,11 +1,10 @@
 //! The robot's walk on the network: at which spots it was, one after the other, and by which ways it went.
 
 use hssh_metrics::Pose;
-use nalgebra::Vector2;
 
-use super::flood::{UNREACHED, flood};
 use super::network::{Network, WayEnd};
 use super::options::RouteOptions;
+use crate::geodesic::Geodesic;
 use crate::grid::{Cell, Occupancy, OccupancyGrid};
 
 /// A stay at a spot.
@@ -138,7 +137,7 @@ fn jump(
     let here = network.ways[from.0].spots;
     let there = network.ways[way].spots;
     let shared: Vec<usize> = here.into_iter().filter(|spot| there.contains(spot)).collect();
-    let at = Vector2::new(poses[scan].x, poses[scan].y);
+    let at = poses[scan].translation();
     let off = |spot: &usize| (network.spots[*spot].center - at).norm();
     let nearest = |spots: &[usize]| spots.iter().copied().min_by(|a, b| off(a).total_cmp(&off(b)));
     if let Some(spot) = nearest(&shared).or_else(|| nearest(&there)) {
@@ -153,7 +152,7 @@ fn go(network: &Network, poses: &[Pose], scans: (usize, usize), spot: usize, sta
     for arm in path {
         let next = network.spot_at(arm.opposite());
         let center = network.spots[next].center;
-        let off = |scan: &usize| (Vector2::new(poses[*scan].x, poses[*scan].y) - center).norm();
+        let off = |scan: &usize| (poses[*scan].translation() - center).norm();
         let since = stays.last().map_or(scans.0, |stay| stay.scans.1);
         let nearest = (since..=scans.1).min_by(|a, b| off(a).total_cmp(&off(b))).unwrap_or(scans.1);
         stays.last_mut().expect("there is one").left = Some(arm);
@@ -191,13 +190,10 @@ fn positions(
             });
         }
     }
-    let nearest = flood(lattice, &sources, f64::from(lattice.width().max(lattice.height())), |cell| {
-        travelled.get(cell) == Occupancy::Free
-    });
-    let position = |pose: &Pose| {
-        let source = nearest[lattice.index(lattice.cell_at([pose.x, pose.y])?)];
-        (source != UNREACHED).then(|| told[source as usize])
-    };
+    let everywhere = f64::from(lattice.width().max(lattice.height()));
+    let nearest =
+        Geodesic::from_nearest(lattice, &sources, everywhere, |cell| travelled.get(cell) == Occupancy::Free);
+    let position = |pose: &Pose| Some(told[nearest.nearest(lattice.cell_at([pose.x, pose.y])?)?]);
     poses.iter().map(position).collect()
 }
 

@@ -9,7 +9,6 @@
 mod axis;
 mod center;
 mod dead_end;
-mod geodesic;
 mod sight;
 mod ways;
 

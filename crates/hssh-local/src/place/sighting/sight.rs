@@ -6,8 +6,8 @@ use nalgebra::{Vector2, vector};
 
 use super::center::center;
 use super::dead_end::dead_end;
-use super::geodesic::Geodesic;
 use super::ways::ways_out;
+use crate::geodesic::Geodesic;
 use crate::grid::{Cell, Lattice, Occupancy, OccupancyGrid};
 use crate::place::local_path::is_straight;
 use crate::place::{Gateway, LocalStar, PlaceOptions};

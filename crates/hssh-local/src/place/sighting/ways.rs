@@ -3,7 +3,7 @@
 use nalgebra::{Vector2, vector};
 
 use super::axis::{Axis, fit};
-use super::geodesic::Geodesic;
+use crate::geodesic::Geodesic;
 use crate::grid::{Cell, Lattice};
 use crate::place::{Gateway, PlaceOptions};
 use crate::skeleton::FreeSpace;
