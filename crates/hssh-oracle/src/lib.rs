@@ -11,6 +11,7 @@ mod enumeration;
 mod facts;
 mod map;
 mod path;
+mod reading;
 mod star;
 mod step;
 
@@ -20,4 +21,5 @@ pub use enumeration::{Enumeration, Expansion, FinalMap, Level, enumerate};
 pub use facts::{Facts, Value};
 pub use map::{End, Map};
 pub use path::Path;
+pub use reading::{ReadHypothesis, ReadingModel, enumerate_readings};
 pub use step::{Node, Step};

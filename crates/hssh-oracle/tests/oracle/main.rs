@@ -5,4 +5,6 @@
 mod grid;
 mod laws;
 mod published_counts;
+mod reading_laws;
+mod readings;
 mod small_maps;
