@@ -5,7 +5,8 @@ use hssh_causal::Exploration;
 use super::chart::Chart;
 use super::merge::Sight;
 use super::model::ReadingModel;
-use super::travel::{Here, Travelling};
+use super::travel::Travelling;
+use super::way::Here;
 use crate::axiom::Rules;
 
 /// One sequence of ways, from the first visit through all travels.

@@ -27,6 +27,7 @@ mod merge;
 mod model;
 mod read;
 mod travel;
+mod way;
 
 pub use account::{ReadHypothesis, enumerate_readings};
 pub use model::ReadingModel;

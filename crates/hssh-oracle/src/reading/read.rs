@@ -129,8 +129,8 @@ mod tests {
     use super::super::merge::{anchored, with_new_entry};
     use super::*;
 
-    /// The place made of `known`, as `seen` on coming in by `entry` leaves it: for each reading that matches so many
-    /// ends, the stars it may become, clockwise from the entry: open ends o, closed ones c, by local path.
+    /// What a place with the star `known` becomes by each reading that matches so many ends: its ends clockwise from
+    /// the entry, open (o) or closed (c), each with a number that it shares with its opposite.
     fn revised(known: &str, anchor: Option<usize>, seen: &str, entry: usize, matched: usize) -> Vec<String> {
         let (known, star): (Star, Star) = (known.parse().unwrap(), seen.parse().unwrap());
         let mut chart = Chart::default();

@@ -64,7 +64,7 @@ fn assert_close(costs: &[f64], expected: &[f64]) {
     }
 }
 
-/// Out of a dead end into a corridor: a new place, a false visit, or (were it the same star) a turn.
+/// From a dead end to a dead end: a new place, a false visit, or a turn on the way.
 #[test]
 fn one_travel_has_three_explanations() {
     let hypotheses = readings(&walk(DEAD_END, &[(0, 0, DEAD_END)]));
