@@ -96,6 +96,21 @@ xflags::xflags! {
             /// With --drive: the file to write its log into.
             optional --out file: PathBuf
         }
+        /// Injects errors of perception into explorations, and counts how often the true map is found, with readings and without.
+        cmd readings {
+            /// Only worlds whose names begin so.
+            optional --name name: String
+            /// Only this rate of errors.
+            optional --rate rate: f64
+            /// Explorations of each row; 10 if not given.
+            optional --seeds count: usize
+            /// Seconds that one search may take; 20 if not given.
+            optional --seconds seconds: f64
+            /// Expansions after which the best map counts without a proof; 1000 if not given.
+            optional --patience expansions: u64
+            /// The file to draw the plot into.
+            optional --svg file: PathBuf
+        }
         /// Drives a simulated robot through seven built floors and a real one: control level, survey and map against
         /// the truth.
         cmd robot {

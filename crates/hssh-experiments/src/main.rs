@@ -14,6 +14,7 @@ mod log;
 mod noisy;
 mod peers;
 mod pose_graphs;
+mod readings;
 mod robot;
 mod root;
 mod score;
@@ -50,6 +51,7 @@ fn run(command: ExperimentsCmd) -> Result<(), Box<dyn Error>> {
         ExperimentsCmd::Grids(flags) => grids::run(&flags),
         ExperimentsCmd::Log(flags) => log::run(&flags.data),
         ExperimentsCmd::Calibrate(flags) => calibrate::run(&flags),
+        ExperimentsCmd::Readings(flags) => readings::run(&flags),
         ExperimentsCmd::Robot(flags) => robot::run(&flags),
     }
 }

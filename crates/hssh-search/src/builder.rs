@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use hssh_metrics::SolveError;
-use hssh_topology::{Axioms, Preference};
+use hssh_topology::{Axioms, Preference, ReadingModelError};
 
 use crate::crew::ThreadsError;
 use crate::limits::{Limits, Monitor};
@@ -32,6 +32,9 @@ pub enum MapperError {
     /// The model is none.
     #[error("the model makes no sense: {0}")]
     Model(#[from] ModelError),
+    /// The model of perception is none.
+    #[error("the model of perception makes no sense: {0}")]
+    Reading(#[from] ReadingModelError),
     /// A travel is not measured, or badly.
     #[error(transparent)]
     Measurement(#[from] MeasurementError),

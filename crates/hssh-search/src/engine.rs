@@ -221,7 +221,10 @@ impl<A: Appraise> Engine<A> {
     }
 
     /// Puts the successors of an expanded hypothesis into the tree and where they belong.
-    pub(crate) fn enter(&mut self, leaf: &Leaf<A>, grown: Growth<A>, context: Context<'_>) {
+    pub(crate) fn enter(&mut self, leaf: &Leaf<A>, mut grown: Growth<A>, context: Context<'_>) {
+        if let Some(rest) = grown.as_mut().ok().and_then(|grown| grown.rest.take()) {
+            if self.matters(&rest) { self.push(rest) } else { self.park(rest) }
+        }
         for next in self.plant(leaf, grown, context) {
             let is_whole = next.depth() == self.travels;
             if is_whole && self.order == Order::Proof && self.appraiser.is_settled(&next) {

@@ -101,7 +101,7 @@ fn turns(seen: &[f64], first: &[f64]) -> Vec<f64> {
 
 /// The bearings of all ends of a star. Ends without bearings count as spread evenly around the place, clockwise, turned so
 /// that they agree best with those measured.
-fn bearings(star: &Star, measured: &[Option<f64>]) -> Vec<f64> {
+pub(crate) fn bearings(star: &Star, measured: &[Option<f64>]) -> Vec<f64> {
     let degree = f64::from(star.degree());
     let spread = |olp: Olp| -std::f64::consts::TAU * olp.index() as f64 / degree;
     let known = || star.olps().filter_map(|olp| Some(measured[olp.index()]? - spread(olp)));
@@ -109,7 +109,7 @@ fn bearings(star: &Star, measured: &[Option<f64>]) -> Vec<f64> {
     star.olps().map(|olp| measured[olp.index()].unwrap_or(spread(olp) + offset)).collect()
 }
 
-fn circular_mean(angles: impl Iterator<Item = f64>) -> f64 {
+pub(crate) fn circular_mean(angles: impl Iterator<Item = f64>) -> f64 {
     let (sine, cosine) = angles.fold((0.0, 0.0), |(s, c), angle| (s + angle.sin(), c + angle.cos()));
     sine.atan2(cosine)
 }

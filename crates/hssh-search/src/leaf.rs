@@ -70,6 +70,12 @@ pub(crate) trait Appraise: Debug + Sync + Sized {
     /// The greatest key that counts as equal to this one, or that is `slack` nats beyond that.
     fn reach(&self, key: Self::Key, slack: f64) -> Self::Key;
 
+    /// Whether a map can come of a leaf at all, as far as is known.
+    fn is_possible(&self, leaf: &Leaf<Self>) -> bool {
+        let _ = leaf;
+        true
+    }
+
     /// By how many nats one key is above another: how far a reach has to be widened.
     fn distance(&self, from: Self::Key, to: Self::Key) -> f64 {
         self.nats(to) - self.nats(from)
@@ -166,6 +172,8 @@ pub(crate) struct Grown<A: Appraise> {
     pub(crate) outcome: Outcome,
     pub(crate) removals: Removals,
     pub(crate) successors: Vec<(Child, Leaf<A>)>,
+    /// The leaf once more, for the successors that were not spelled out yet.
+    pub(crate) rest: Option<Leaf<A>>,
 }
 
 /// What came of an attempt to grow a leaf: no successors if a layout cannot be computed.
@@ -173,5 +181,6 @@ pub(crate) type Growth<A> = Result<Grown<A>, SolveError>;
 
 /// Whether something that matters may come of a leaf.
 pub(crate) fn matters<A: Appraise>(appraiser: &A, leaf: &Leaf<A>, reach: Option<A::Key>) -> bool {
-    reach.is_none_or(|reach| appraiser.bound(leaf).is_none_or(|bound| bound <= reach))
+    appraiser.is_possible(leaf)
+        && reach.is_none_or(|reach| appraiser.bound(leaf).is_none_or(|bound| bound <= reach))
 }

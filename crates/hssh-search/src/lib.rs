@@ -32,6 +32,7 @@ mod order;
 mod placement;
 mod posterior;
 mod preference;
+mod reading;
 mod report;
 mod step;
 mod strategy;
@@ -54,6 +55,7 @@ pub use placement::{Placement, PlacementError, place_by_odometry};
 pub use posterior::{
     Appearance, Corridor, Cost, LINEAR_TRUST, MapPrior, Metrical, ModelError, PlacePrior, PosteriorModel,
 };
+pub use reading::{Corrected, Correction, Passage, ReadAnswer, ReadMap, Reader};
 pub use report::{FinalCounts, LevelCounts, Levels, Probable, Proof, RankedMap, Report, Score};
 pub use tree::{NodeId, Tree};
 pub use visit::{MeasurementError, Visit, VisitError};

@@ -425,7 +425,7 @@ fn survey<A: Appraise>(
 }
 
 /// What is known about the answer of a search whose keys are bounds.
-fn proof<A: Appraise>(engine: &Engine<A>) -> Proof {
+pub(crate) fn proof<A: Appraise>(engine: &Engine<A>) -> Proof {
     let Engine { appraiser, found, factors, reach, .. } = engine;
     let unsolvable = engine.unsolvable.is_some();
     let best = found.first().map(|found| found.leaf.key);

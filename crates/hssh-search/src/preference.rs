@@ -88,7 +88,7 @@ impl Appraise for ByPreference {
             successors(cursor, leaf.node, tree, context, &mut step, Look::Inside, |child, hypothesis| {
                 grown.push((child, self.leaf(&hypothesis.map, child.parent, leaf.depth() + 1, context)));
             });
-        Ok(Grown { outcome, removals: step.removals, successors: grown })
+        Ok(Grown { outcome, removals: step.removals, successors: grown, rest: None })
     }
 
     fn is_settled(&self, _: &Leaf<Self>) -> bool {

@@ -13,6 +13,7 @@ mod isomorphism;
 mod live;
 mod map;
 mod preference;
+mod reading;
 mod replay;
 mod sanity;
 mod simplicity;
@@ -28,6 +29,10 @@ pub use ids::{Dart, FaceLabel, MapOlp, Olp, PathId, PlaceId, StarId, Vertex};
 pub use isomorphism::Isomorphism;
 pub use map::{BoundaryRelation, Course, Direction, PathSides, PendingGateway, Region, TopologicalMap};
 pub use preference::{GenusRank, Measure, Preference, Rank};
+pub use reading::{
+    Account, Anywhere, Arrival, Chart, ChartEnd, Element, EndRecord, Hop, Reading, ReadingModel,
+    ReadingModelError, Side, Sight, Sightings, Underway, Way, Whereabouts,
+};
 pub use replay::{
     Contradiction, Discovery, End, Malformed, MapSketch, Replay, ReplayedTravel, TracedPath, Violation,
     replay, violations,

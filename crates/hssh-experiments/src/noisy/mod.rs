@@ -9,6 +9,7 @@ use std::error::Error;
 
 use crate::flags;
 
+pub(crate) use plot::{Chart, Curve, draw};
 pub(crate) use trial::on_threads;
 
 /// The experiments of this kind, and what runs them.

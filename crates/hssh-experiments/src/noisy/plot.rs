@@ -7,23 +7,23 @@ use plotters::coord::ranged1d::{AsRangedCoord, ValueFormatter};
 use plotters::prelude::*;
 
 /// One line of a chart.
-pub(super) struct Curve {
-    pub(super) name: String,
-    pub(super) points: Vec<(f64, f64)>,
+pub(crate) struct Curve {
+    pub(crate) name: String,
+    pub(crate) points: Vec<(f64, f64)>,
 }
 
 /// Curves over two axes.
-pub(super) struct Chart {
-    pub(super) title: String,
-    pub(super) x: String,
-    pub(super) y: String,
+pub(crate) struct Chart {
+    pub(crate) title: String,
+    pub(crate) x: String,
+    pub(crate) y: String,
     /// Which of the axes are logarithmic.
-    pub(super) logarithmic: [bool; 2],
-    pub(super) curves: Vec<Curve>,
+    pub(crate) logarithmic: [bool; 2],
+    pub(crate) curves: Vec<Curve>,
 }
 
 /// Draws a chart into a file.
-pub(super) fn draw(file: &Path, chart: &Chart) -> Result<(), Box<dyn Error>> {
+pub(crate) fn draw(file: &Path, chart: &Chart) -> Result<(), Box<dyn Error>> {
     let range = |axis: usize| {
         let of = |&(x, y): &(f64, f64)| if axis == 0 { x } else { y };
         let values = chart.curves.iter().flat_map(|curve| &curve.points).map(of);

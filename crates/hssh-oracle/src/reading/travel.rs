@@ -75,7 +75,7 @@ impl Travelling<'_> {
             let (place, entry, here) = self.discover(&mut way);
             let b = way.chart.places[place].ends[b];
             way.chart.split((d, entry), (y, b));
-            way.price += travel_by(&mut way.chart, self.model, b);
+            way.chart.ends[b].evidence.travelled = true;
             way.pass_link_of(d);
             (way, here)
         };
@@ -85,7 +85,7 @@ impl Travelling<'_> {
     fn passing(&self, way: &Way, d: EndId, y: EndId) -> Vec<Arrival> {
         let mut way = way.clone();
         way.pass_link_of(d);
-        self.pass(&way, y)
+        self.pass(&way, y, None)
     }
 
     fn branched(&self, way: &Way, d: EndId, y: EndId) -> Vec<Arrival> {
@@ -136,8 +136,9 @@ impl Travelling<'_> {
                     let (place, entry, here) = self.discover(&mut way);
                     let [a, b] = [a, b].map(|seen| way.chart.places[place].ends[seen]);
                     way.chart.split((link.from, a), (link.to, b));
-                    way.price += travel_by(&mut way.chart, self.model, a);
-                    way.price += travel_by(&mut way.chart, self.model, b);
+                    for end in [a, b] {
+                        way.chart.ends[end].evidence.travelled = true;
+                    }
                     way.link(d, entry);
                     ways.push((way, here));
                 }
@@ -150,7 +151,7 @@ impl Travelling<'_> {
         let by = |y: EndId| {
             let mut way = way.clone();
             way.link(d, y);
-            self.pass(&way, y)
+            self.pass(&way, y, Some(d))
         };
         way.chart.pending().into_iter().filter(|&y| y != d).flat_map(by).collect()
     }
@@ -170,8 +171,8 @@ impl Travelling<'_> {
         ways
     }
 
-    /// The robot comes in by `y`, sees no place, and leaves by any other open end.
-    fn pass(&self, way: &Way, y: EndId) -> Vec<Arrival> {
+    /// The robot comes in by `y`, sees no place, and leaves by any other open end but `not`.
+    fn pass(&self, way: &Way, y: EndId, not: Option<EndId>) -> Vec<Arrival> {
         if way.passed == self.model.most_passed {
             return Vec::new();
         }
@@ -184,7 +185,7 @@ impl Travelling<'_> {
             way.price += travel_by(&mut way.chart, self.model, z);
             self.depart(way, z)
         };
-        open.iter().filter(|&&z| z != y).flat_map(onward).collect()
+        open.iter().filter(|&&z| z != y && Some(z) != not).flat_map(onward).collect()
     }
 
     /// Passes a place that was never reported, on the link of an end; `None` if that is one place too many.
@@ -195,7 +196,7 @@ impl Travelling<'_> {
         (way.passed <= self.model.most_passed).then_some(way)
     }
 
-    /// A place that was not known, with the star as seen; its entry is travelled at no price.
+    /// A place that was not known, with the star as seen; its entry is travelled at no price, and so is what faces ways travelled before.
     fn discover(&self, way: &mut Way) -> (usize, EndId, Here) {
         let place = way.chart.add_visited_place(self.sight.star);
         let ends = way.chart.places[place].ends.clone();

@@ -108,7 +108,7 @@ fn a_branch_and_an_inserted_place() {
     let before = leaving() + seen();
     let branched = before + 3.0 * nats(0.1) + nats(0.1);
     assert_close(&costs(&hypotheses, &visits, (4, 3, 3)), &[branched; 2]);
-    let inserted = before + 2.0 * nats(0.1) + leaving();
+    let inserted = before + 2.0 * nats(0.1);
     assert_close(&costs(&hypotheses, &visits, (3, 2, 2)), &[inserted; 3]);
 }
 

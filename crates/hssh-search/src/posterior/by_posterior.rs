@@ -17,6 +17,7 @@ use crate::posterior::appearance::Appearance;
 use crate::posterior::cost::Cost;
 use crate::posterior::layout::{Layout, Strain};
 use crate::posterior::model::{Metrical, PosteriorModel};
+use crate::posterior::outlook::Sameness;
 use crate::posterior::tariff::Tariff;
 use crate::report::{Probable, Score};
 use crate::step::{Look, successors};
@@ -24,11 +25,11 @@ use crate::tree::{Child, NodeId, Tree};
 use crate::visit::MeasurementError;
 
 /// A rise of χ² that does not matter.
-const NEGLIGIBLE: f64 = 0.1;
+pub(crate) const NEGLIGIBLE: f64 = 0.1;
 
 /// By how much costs may differ and still count as equal, relative to one nat and to the cost: least squares end
 /// when they promise no more than that.
-const TIE: f64 = 1e-6;
+pub(crate) const TIE: f64 = 1e-6;
 
 /// A cost that orders.
 #[derive(Clone, Copy, PartialEq, Debug)]
@@ -107,7 +108,13 @@ struct Departure {
 impl ByPosterior {
     pub(crate) fn new(model: PosteriorModel, appearance: Appearance, order: Order) -> Self {
         let measured = (model.metrical != Metrical::Ignored).then(Measured::default);
-        ByPosterior { tariff: Tariff::new(model), measured, appearance, order, places: Vec::new() }
+        ByPosterior {
+            tariff: Tariff::new(model, Sameness::Isomorphic),
+            measured,
+            appearance,
+            order,
+            places: Vec::new(),
+        }
     }
 
     /// Sets what follows from a leaf's cost.
@@ -262,7 +269,7 @@ impl Appraise for ByPosterior {
             let burden = Burden { cost, floor: next.floor, bound: Nats(0.0), placing };
             grown.push((next.child, self.leaf(next.child.parent, travel + 1, next.pending, burden)));
         }
-        Ok(Grown { outcome, removals: step.removals, successors: grown })
+        Ok(Grown { outcome, removals: step.removals, successors: grown, rest: None })
     }
 
     fn is_settled(&self, leaf: &Leaf<Self>) -> bool {

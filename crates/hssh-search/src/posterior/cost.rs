@@ -21,13 +21,16 @@ pub struct Cost {
     pub complexity: f64,
     /// How much less alike visits to one place look than the most alike visits there are.
     pub appearance: f64,
+    /// What perception is taken to have got wrong (docs/readings.md). Counts with readings only.
+    pub perception: f64,
 }
 
 impl Cost {
     /// The sum.
     #[must_use]
     pub fn total(&self) -> f64 {
-        self.bend + self.vagueness + self.places + self.choices + self.complexity + self.appearance
+        let Cost { bend, vagueness, places, choices, complexity, appearance, perception } = self;
+        bend + vagueness + places + choices + complexity + appearance + perception
     }
 
     /// The same with another χ².

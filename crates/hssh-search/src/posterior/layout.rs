@@ -39,7 +39,16 @@ impl Layout {
     /// they may have been caught in a local minimum, and start once more from the measurements alone.
     pub(crate) fn bent(&self, trail: &Trail, measured: &Measured, promised: f64) -> Result<Self, SolveError> {
         let loops = measured.chi2_of_loops(trail);
-        let graph = &mut measured.graph(trail, &self.poses);
+        self.bent_to(&mut measured.graph(trail, &self.poses), loops, promised)
+    }
+
+    /// The same for any graph of travels, with this layout's poses; `loops` is what travels from a place to itself add to χ².
+    pub(crate) fn bent_to(
+        &self,
+        graph: &mut PoseGraph,
+        loops: f64,
+        promised: f64,
+    ) -> Result<Self, SolveError> {
         let warm = minimum(graph)?;
         let chi2 = warm.chi2 + loops;
         if chi2 <= 1.0 + 1.5 * promised && chi2 <= self.chi2 + SUSPICIOUS_RISE {

@@ -9,7 +9,10 @@ mod outlook;
 mod tariff;
 
 pub use appearance::Appearance;
-pub(crate) use by_posterior::ByPosterior;
+pub(crate) use by_posterior::{ByPosterior, NEGLIGIBLE, Nats, TIE};
 pub use cost::Cost;
+pub(crate) use layout::{Layout, Strain};
 pub use model::{Corridor, MapPrior, Metrical, ModelError, PlacePrior, PosteriorModel};
 pub use outlook::LINEAR_TRUST;
+pub(crate) use outlook::{Sameness, trust};
+pub(crate) use tariff::Tariff;

@@ -88,6 +88,11 @@ impl Corridor {
         length - distance.ln() + self.direction(way, exit) + self.direction(way_back, entry)
     }
 
+    /// What it costs that a way leads off a gateway's bearing by so much, against one that does not: nats, never negative.
+    pub(crate) fn price_of_turn(self, way: f64, bearing: f64) -> f64 {
+        (self.direction(bearing, Some(bearing)) - self.direction(way, Some(bearing))).max(0.0)
+    }
+
     /// The log-density of a direction, given the gateway's bearing.
     fn direction(self, way: f64, bearing: Option<f64>) -> f64 {
         let Some(bearing) = bearing else { return -TAU.ln() };

@@ -31,9 +31,19 @@ const FIRST_THRESHOLD: f64 = 0.5;
 const THRESHOLD_FACTOR: f64 = 1.25;
 const THRESHOLDS: usize = 40;
 
+/// Which visits can have been to one place.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(crate) enum Sameness {
+    /// Those that show isomorphic stars.
+    Isomorphic,
+    /// All: perception may have erred.
+    AnyReading,
+}
+
 /// How many new places the travels that are left need, by travels explained and by χ²/2. It grows with the experience.
 #[derive(Clone, Debug)]
 pub(crate) struct Outlook {
+    sameness: Sameness,
     /// Ascending; the last one is no limit at all.
     thresholds: Vec<f64>,
     /// By threshold: the visits that need a new place.
@@ -105,14 +115,14 @@ fn without(intervals: &[Range<usize>], taken: &[Range<usize>]) -> Vec<Range<usiz
 
 impl Outlook {
     /// Before the first travel.
-    pub(crate) fn new(is_measured: bool) -> Self {
+    pub(crate) fn new(is_measured: bool, sameness: Sameness) -> Self {
         let next = |&last: &f64| Some(last * THRESHOLD_FACTOR);
         let steps = std::iter::successors(Some(FIRST_THRESHOLD), next);
         let steps = steps.take(if is_measured { THRESHOLDS } else { 0 });
         let thresholds: Vec<f64> = steps.chain([f64::MAX]).collect();
         let mut needs = vec![Needs::default(); thresholds.len()];
         needs.iter_mut().for_each(|needs| needs.push(std::iter::empty()));
-        Outlook { thresholds, needs, visits: 1, ways: Vec::new(), lost: BTreeMap::new() }
+        Outlook { sameness, thresholds, needs, visits: 1, ways: Vec::new(), lost: BTreeMap::new() }
     }
 
     /// Takes notice of the visits that are new.
@@ -164,7 +174,12 @@ impl Outlook {
                 let turn = measured.frames.turn_between(visit, earlier, rotation);
                 trust(way.covariance.matrix()[(2, 2)]) * half_chi2(&way, turn)
             };
-            let price = rotations(&experience.catalog, seen, first).map(price).fold(f64::INFINITY, f64::min);
+            let price = match self.sameness {
+                Sameness::Isomorphic => {
+                    rotations(&experience.catalog, seen, first).map(price).fold(f64::INFINITY, f64::min)
+                }
+                Sameness::AnyReading => trust(way.covariance.matrix()[(2, 2)]) * half_chi2_of_position(&way),
+            };
             if price < f64::INFINITY {
                 prices.push((earlier, price));
             }
@@ -175,10 +190,11 @@ impl Outlook {
 
     /// The visits that odometry tells nothing about and at which the same was seen, at no price.
     fn lost_alike(&self, seen: StarId, experience: &Experience) -> Vec<(usize, f64)> {
-        let alike = self
-            .lost
-            .iter()
-            .filter(|&(&star, _)| rotations(&experience.catalog, seen, star).next().is_some());
+        let is_alike = |star: StarId| {
+            self.sameness == Sameness::AnyReading
+                || rotations(&experience.catalog, seen, star).next().is_some()
+        };
+        let alike = self.lost.iter().filter(|&(&star, _)| is_alike(star));
         let mut visits: Vec<(usize, f64)> =
             alike.flat_map(|(_, visits)| visits.iter().map(|&visit| (visit, 0.0))).collect();
         visits.sort_by_key(|&(visit, _)| visit);
@@ -214,6 +230,13 @@ fn half_chi2(way: &UncertainPose, turn: f64) -> f64 {
     let off = way.mean.compose(Pose::new(0.0, 0.0, -turn));
     let off = nalgebra::vector![off.x, off.y, off.theta];
     0.5 * off.dot(&(way.covariance.information().matrix() * off))
+}
+
+/// The same, in whatever frame: the least over all turns.
+fn half_chi2_of_position(way: &UncertainPose) -> f64 {
+    let off = way.mean.translation();
+    let covariance = way.covariance.matrix().fixed_view::<2, 2>(0, 0).into_owned();
+    covariance.try_inverse().map_or(0.0, |information| 0.5 * off.dot(&(information * off)))
 }
 
 #[cfg(test)]

@@ -7,7 +7,7 @@ use crate::experience::Experience;
 use crate::measured::Measured;
 use crate::posterior::cost::Cost;
 use crate::posterior::model::{Corridor, MapPrior, Metrical, PlacePrior, PosteriorModel};
-use crate::posterior::outlook::Outlook;
+use crate::posterior::outlook::{Outlook, Sameness};
 
 /// What each travel may cost. It grows with the experience.
 #[derive(Clone, Debug)]
@@ -38,10 +38,10 @@ struct Branching {
 }
 
 impl Tariff {
-    pub(crate) fn new(model: PosteriorModel) -> Self {
+    pub(crate) fn new(model: PosteriorModel, sameness: Sameness) -> Self {
         Tariff {
             model,
-            outlook: Outlook::new(model.metrical != Metrical::Ignored),
+            outlook: Outlook::new(model.metrical != Metrical::Ignored, sameness),
             corridor: None,
             new_place: Vec::new(),
             least_new_place: vec![0.0],

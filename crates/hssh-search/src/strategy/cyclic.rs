@@ -39,11 +39,20 @@ struct Turn<A: Appraise> {
     /// By what factors keys rose of what was promised, each with the leaf's bound.
     factors: Vec<(Option<A::Key>, f64)>,
     solved: u64,
+    /// By how many bytes hypotheses grew when they were settled.
+    grown: i64,
 }
 
 impl<A: Appraise> Default for Turn<A> {
     fn default() -> Self {
-        Turn { expanded: None, beyond: Vec::new(), unsolvable: Vec::new(), factors: Vec::new(), solved: 0 }
+        Turn {
+            expanded: None,
+            beyond: Vec::new(),
+            unsolvable: Vec::new(),
+            factors: Vec::new(),
+            solved: 0,
+            grown: 0,
+        }
     }
 }
 
@@ -60,6 +69,7 @@ impl<A: Appraise> Turn<A> {
     ) -> Option<Leaf<A>> {
         if matters(appraiser, &leaf, reach) && !appraiser.is_settled(&leaf) {
             self.solved += 1;
+            let before = appraiser.bytes(&leaf);
             match appraiser.settle(&mut leaf, cursor, tree, context) {
                 Ok(factor) => self.factors.extend(factor.map(|factor| (appraiser.bound(&leaf), factor))),
                 Err(problem) => {
@@ -67,6 +77,7 @@ impl<A: Appraise> Turn<A> {
                     return None;
                 }
             }
+            self.grown += appraiser.bytes(&leaf) as i64 - before as i64;
         }
         if matters(appraiser, &leaf, reach) {
             return Some(leaf);
@@ -155,8 +166,9 @@ impl<A: Appraise> Engine<A> {
 
     /// Enters what came of a level's turn; whether anything was expanded.
     fn end_turn(&mut self, turn: Turn<A>, context: Context<'_>) -> bool {
-        let Turn { expanded, beyond, unsolvable, factors, solved } = turn;
+        let Turn { expanded, beyond, unsolvable, factors, solved, grown } = turn;
         self.solved += solved;
+        self.bytes = self.bytes.saturating_add_signed(grown);
         self.factors.extend(factors);
         for (leaf, problem) in unsolvable {
             self.bytes -= self.appraiser.bytes(&leaf);

@@ -13,4 +13,5 @@ mod online;
 mod posterior;
 mod proof;
 mod published;
+mod reading;
 mod threads;

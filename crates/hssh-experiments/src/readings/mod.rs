@@ -1,0 +1,105 @@
+//! Injected errors of perception: how often the true map is found, with readings and without.
+
+mod trial;
+
+use std::error::Error;
+
+use hssh_world::{cover, grid, random_planar, snake};
+use rayon::prelude::*;
+
+use crate::flags;
+use crate::noisy::{Chart, Curve, draw};
+use crate::table::aligned;
+use trial::{Ground, Means, Outcome};
+
+/// At what rates perception errs.
+const RATES: [f64; 6] = [0.0, 0.05, 0.1, 0.2, 0.3, 0.4];
+
+/// `cargo xtask readings`.
+pub(crate) fn run(flags: &flags::Readings) -> Result<(), Box<dyn Error>> {
+    let means = Means { seconds: flags.seconds.unwrap_or(20.0), patience: flags.patience.unwrap_or(1_000) };
+    let seeds = flags.seeds.unwrap_or(10);
+    let grounds: Vec<Ground> = grounds()?
+        .into_iter()
+        .filter(|ground| flags.name.as_ref().is_none_or(|name| ground.name.starts_with(name)))
+        .collect();
+    let mut rows = vec![header()];
+    let (mut with, mut without) = (Vec::new(), Vec::new());
+    for rate in RATES.into_iter().filter(|rate| flags.rate.is_none_or(|only| only == *rate)) {
+        let mut all = Vec::new();
+        for ground in &grounds {
+            let outcomes: Vec<Outcome> = (0..seeds as u64)
+                .into_par_iter()
+                .map(|seed| ground.try_with(rate, seed, means).map_err(|error| error.to_string()))
+                .collect::<Result<_, _>>()?;
+            rows.push(row(&ground.name, rate, &outcomes));
+            eprintln!("{}", rows[rows.len() - 1].join("  "));
+            all.extend(outcomes);
+        }
+        with.push((rate, share(&all, |outcome| outcome.right)));
+        without.push((rate, share(&all, |outcome| outcome.exact_right)));
+    }
+    println!("{}", aligned(&rows));
+    if let Some(file) = &flags.svg {
+        let curve = |name: &str, points| Curve { name: name.to_owned(), points };
+        let chart = Chart {
+            title: "Explorations with errors of perception".to_owned(),
+            x: "rate of each kind of error".to_owned(),
+            y: "share of true maps found".to_owned(),
+            logarithmic: [false; 2],
+            curves: vec![curve("with readings", with), curve("every star certain", without)],
+        };
+        draw(file, &chart)?;
+    }
+    Ok(())
+}
+
+fn grounds() -> Result<Vec<Ground>, Box<dyn Error>> {
+    let mut grounds = Vec::new();
+    for side in 3..=6 {
+        let world = grid(side, side, 8.0)?;
+        let route = world.route_through(&snake(side, side))?;
+        grounds.push(Ground { name: format!("grid {side}x{side}"), world, route });
+    }
+    for places in [15, 30, 60] {
+        let world = random_planar(places, 0.35, 10.0, u64::from(places))?;
+        let route = cover(&world, 1)?;
+        grounds.push(Ground { name: format!("planar {places}"), world, route });
+    }
+    Ok(grounds)
+}
+
+fn header() -> Vec<String> {
+    let columns = [
+        "world",
+        "rate",
+        "errors",
+        "true",
+        "proved",
+        "expanded",
+        "seconds",
+        "exact: true",
+        "exact: expanded",
+    ];
+    columns.map(str::to_owned).to_vec()
+}
+
+fn row(name: &str, rate: f64, outcomes: &[Outcome]) -> Vec<String> {
+    let mean = |of: &dyn Fn(&Outcome) -> f64| outcomes.iter().map(of).sum::<f64>() / outcomes.len() as f64;
+    let percent = |of: &dyn Fn(&Outcome) -> bool| format!("{:.0} %", 100.0 * share(outcomes, of));
+    vec![
+        name.to_owned(),
+        format!("{rate:.2}"),
+        format!("{:.1}", mean(&|outcome| outcome.errors as f64)),
+        percent(&|outcome| outcome.right),
+        percent(&|outcome| outcome.proved),
+        format!("{:.0}", mean(&|outcome| outcome.expanded as f64)),
+        format!("{:.2}", mean(&|outcome| outcome.seconds)),
+        percent(&|outcome| outcome.exact_right),
+        format!("{:.0}", mean(&|outcome| outcome.exact_expanded as f64)),
+    ]
+}
+
+fn share(outcomes: &[Outcome], of: impl Fn(&Outcome) -> bool) -> f64 {
+    outcomes.iter().filter(|outcome| of(outcome)).count() as f64 / outcomes.len().max(1) as f64
+}

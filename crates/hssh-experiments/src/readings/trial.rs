@@ -1,0 +1,83 @@
+//! One exploration with injected errors: is the true map found, with readings and without?
+
+use std::error::Error;
+use std::time::Duration;
+
+use hssh_search::{Limits, Mapper, Order, PosteriorModel, Proving, Reader};
+use hssh_topology::Axioms;
+use hssh_world::{DriftModel, ErrorRates, Misperceived, Route, World};
+
+/// Where robots drive.
+pub(super) struct Ground {
+    pub(super) name: String,
+    pub(super) world: World,
+    pub(super) route: Route,
+}
+
+/// What a search has to come to within.
+#[derive(Clone, Copy)]
+pub(super) struct Means {
+    pub(super) seconds: f64,
+    pub(super) patience: u64,
+}
+
+/// What one trial came to.
+#[derive(Clone, Copy, Default)]
+pub(super) struct Outcome {
+    pub(super) errors: usize,
+    /// The best account puts all visits where they were.
+    pub(super) right: bool,
+    pub(super) proved: bool,
+    pub(super) expanded: u64,
+    pub(super) seconds: f64,
+    /// The same, every star and travel being certain.
+    pub(super) exact_right: bool,
+    pub(super) exact_expanded: u64,
+}
+
+const MOST_BYTES: u64 = 2 << 30;
+
+impl Ground {
+    pub(super) fn try_with(&self, rate: f64, seed: u64, means: Means) -> Result<Outcome, Box<dyn Error>> {
+        let told =
+            self.world.misperceive(&self.route, &DriftModel::default(), ErrorRates::all(rate), seed)?;
+        let exploration = &told.exploration;
+        let model = PosteriorModel::evidence(exploration).ok_or("no distance was measured")?;
+        let axioms = Axioms { max_genus: Some(0), ..Axioms::default() };
+        let time = Some(Duration::from_secs_f64(means.seconds));
+        let limits = Limits { time, bytes: Some(MOST_BYTES), ..Limits::default() };
+        let patience = Some(means.patience);
+        let read = Reader { axioms, limits, patience, ..Reader::new(model) }.read(exploration)?;
+
+        let proving = Proving { patience, ..Proving::default() };
+        let exact = Mapper::builder().posterior(model).axioms(axioms).order(Order::Cyclic);
+        let exact = exact.limits(limits).proving(proving).explain(exploration)?;
+        let (report, maps) = exact.answer(1);
+        let visits = maps.first().map(|map| exact.visits(map.node));
+        let visits =
+            visits.map(|visits| visits.into_iter().map(|visit| Some(visit.place)).collect::<Vec<_>>());
+        Ok(Outcome {
+            errors: told.errors.iter().sum(),
+            right: read.maps.first().is_some_and(|map| is_right(&map.visits(), &told)),
+            proved: read.proof.proved,
+            expanded: read.expanded,
+            seconds: read.seconds,
+            exact_right: visits.is_some_and(|visits| is_right(&visits, &told)),
+            exact_expanded: report.expanded,
+        })
+    }
+}
+
+/// Whether visits are at one place exactly where they were, and what is no place is not taken for one where the robot was on another visit.
+fn is_right<T: Copy + PartialEq>(visits: &[Option<T>], told: &Misperceived) -> bool {
+    let pairs = visits.iter().zip(&told.visits);
+    visits.len() == told.visits.len()
+        && pairs.clone().all(|(place, truth)| truth.is_none() || place.is_some())
+        && pairs.clone().enumerate().all(|(later, (place, truth))| {
+            let same = |(other, other_truth): (&Option<T>, &Option<_>)| {
+                let is_same = place.is_some() && place == other;
+                is_same == (truth.is_some() && truth == other_truth)
+            };
+            visits[..later].iter().zip(&told.visits).all(same)
+        })
+}

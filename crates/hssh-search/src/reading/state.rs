@@ -1,0 +1,255 @@
+//! What an account of an exploration comes to in metrical terms: a frame for each place that was reported, and the travels between them.
+
+use std::sync::Arc;
+
+use hssh_metrics::{Pose, PoseGraph, PoseId, UncertainPose, UncertaintyError};
+use hssh_topology::{Account, ChartEnd, Observation, Olp, PlaceId, Reading, Sight, StarId, Way};
+
+use crate::experience::Experience;
+use crate::frames::{bearings, circular_mean};
+use crate::measured::{MeasuredTravel, PlacedTravel};
+use crate::posterior::Layout;
+
+/// A direction in the frame of a place, or of a visit: rad.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub(crate) struct Bearing {
+    pub(crate) angle: f64,
+    /// Else it is only where ends are spread evenly.
+    pub(crate) measured: bool,
+}
+
+/// By star, and by end: the bearings as seen.
+#[derive(Debug)]
+pub(crate) struct Sights(Vec<Vec<Bearing>>);
+
+impl Sights {
+    pub(crate) fn of(experience: &Experience) -> Self {
+        let star_bearings = |(number, star): (usize, _)| {
+            let measured = experience.bearings(StarId::new(number as u32));
+            let angles = bearings(star, measured);
+            let bearing = |(angle, known): (f64, &Option<f64>)| Bearing { angle, measured: known.is_some() };
+            angles.into_iter().zip(measured).map(bearing).collect()
+        };
+        Sights(experience.catalog.stars().enumerate().map(star_bearings).collect())
+    }
+
+    pub(crate) fn of_star(&self, star: StarId) -> &[Bearing] {
+        &self.0[star.index()]
+    }
+}
+
+/// Measured travels that lead from one place to another, with how the frames of the visits are turned against those of the places.
+#[derive(Clone, Copy, Debug)]
+struct Leg {
+    /// The travels, those to false visits among them.
+    travels: [u32; 2],
+    from: (PoseId, f64),
+    to: (PoseId, f64),
+}
+
+/// One step of a branch: how the travel is explained.
+#[derive(Debug)]
+pub(crate) struct Trace {
+    before: Option<Arc<Trace>>,
+    /// The account that the travel leads to.
+    pub(crate) step: Passage,
+}
+
+/// How a travel is explained, and where it led.
+#[derive(Clone, PartialEq, Debug)]
+pub struct Passage {
+    /// How.
+    pub way: Way,
+    /// The end of the chart that the robot left by.
+    pub exit: ChartEnd,
+    /// The place that it came to; `None` if the report is of none.
+    pub place: Option<PlaceId>,
+    /// By end of the star seen there: the end of the place that it is.
+    pub seen: Vec<Option<ChartEnd>>,
+}
+
+/// An account with its layout.
+#[derive(Clone, Debug)]
+pub(crate) struct State {
+    pub(crate) account: Account,
+    pub(crate) layout: Layout,
+    /// By place: its pose, if it was ever reported.
+    places: Vec<Option<PoseId>>,
+    /// By end: its bearing in the frame of its place, if that was ever reported.
+    bearings: Vec<Option<Bearing>>,
+    legs: Vec<Leg>,
+    /// How the frame of the last visit to a place is turned against that of the place.
+    turn: f64,
+    /// The first travel since.
+    since: u32,
+    trace: Option<Arc<Trace>>,
+}
+
+impl State {
+    /// The first visit.
+    pub(crate) fn begin(experience: &Experience, sights: &Sights) -> Self {
+        let start = experience.start;
+        let account = Account::begin(experience.catalog.star(start));
+        State {
+            account,
+            layout: Layout { poses: vec![Pose::IDENTITY], chi2: 0.0 },
+            places: vec![Some(PoseId(0))],
+            bearings: sights.of_star(start).iter().copied().map(Some).collect(),
+            legs: Vec::new(),
+            turn: 0.0,
+            since: 0,
+            trace: None,
+        }
+    }
+
+    /// The pose of a place, if it was ever reported.
+    pub(crate) fn pose_of(&self, place: PlaceId) -> Option<PoseId> {
+        self.places.get(place.index()).copied().flatten()
+    }
+
+    /// Where a place is in the layout.
+    pub(crate) fn located(&self, place: PlaceId) -> Option<Pose> {
+        Some(self.layout.poses[self.pose_of(place)?.index()])
+    }
+
+    /// The bearing of an end in the frame of its place.
+    pub(crate) fn bearing(&self, end: ChartEnd) -> Option<Bearing> {
+        self.bearings.get(end.index()).copied().flatten()
+    }
+
+    /// By what angle the frame of a visit is turned against that of the place: the mean over the ends that are the same.
+    pub(crate) fn turn_under(&self, reading: &Reading, sight: Sight<'_>, seen: &[Bearing]) -> f64 {
+        let pairs = reading.pairs(&self.account.chart, sight.star);
+        circular_mean(
+            pairs.iter().filter_map(|&(olp, end)| Some(self.bearing(end)?.angle - seen[olp.index()].angle)),
+        )
+    }
+
+    /// What was measured since the last visit to a place, up to and with a travel.
+    pub(crate) fn measured_since(
+        &self,
+        travel: usize,
+        travels: &[MeasuredTravel],
+    ) -> Result<MeasuredTravel, UncertaintyError> {
+        compose(&travels[self.since as usize..=travel])
+    }
+
+    /// A travel from the last visit to a place to a visit whose frame is turned by `turn` against that of the place with that pose.
+    pub(crate) fn placed(&self, measured: &MeasuredTravel, to: PoseId, turn: f64) -> PlacedTravel {
+        let from = self.pose_of(self.account.place).expect("the robot was reported there");
+        measured.between((from, turned(self.turn)), (to, turned(turn)))
+    }
+
+    /// What the travel makes of it if that is its way; χ² and poses are those from before, with one pose more if the place had none.
+    pub(crate) fn follow(
+        &self,
+        travel: usize,
+        observation: Observation,
+        sight: Sight<'_>,
+        seen: &[Bearing],
+        way: &Way,
+        travels: Option<&[MeasuredTravel]>,
+    ) -> Result<State, UncertaintyError> {
+        let exit = self.account.exit(observation.exit);
+        let account = self.account.follow(observation.exit, sight, way);
+        let mut next = State { account, ..self.clone() };
+        let is_place = next.account.underway.is_none();
+        let step = Passage {
+            way: way.clone(),
+            exit,
+            place: is_place.then_some(next.account.place),
+            seen: if is_place { next.account.seen.clone() } else { Vec::new() },
+        };
+        next.trace = Some(Arc::new(Trace { before: self.trace.clone(), step }));
+        if !is_place {
+            return Ok(next);
+        }
+        let place = next.account.place;
+        next.places.resize(next.account.chart.place_count() as usize, None);
+        next.bearings.resize(next.account.chart.end_count(), None);
+        let known = next.places[place.index()];
+        let turn = match (known, way.arrival.reading()) {
+            (Some(_), Some(reading)) => self.turn_under(reading, sight, seen),
+            _ => 0.0,
+        };
+        let pose = known.unwrap_or(PoseId(next.layout.poses.len() as u32));
+        if known.is_none() {
+            next.places[place.index()] = Some(pose);
+            let step = travels.map_or(Ok(Pose::IDENTITY), |travels| {
+                let measured = self.measured_since(travel, travels)?;
+                Ok(self.placed(&measured, pose, 0.0).pose)
+            })?;
+            let from = self.located(self.account.place).expect("the robot was reported there");
+            next.layout.poses.push(from.compose(step));
+        }
+        for (olp, end) in next.account.seen.iter().enumerate() {
+            let Some(end) = *end else { continue };
+            let Bearing { angle, measured } = seen[olp];
+            next.bearings[end.index()].get_or_insert(Bearing { angle: angle + turn, measured });
+        }
+        let from = (self.pose_of(self.account.place).expect("the robot was reported there"), self.turn);
+        next.legs.push(Leg { travels: [self.since, travel as u32], from, to: (pose, turn) });
+        (next.turn, next.since) = (turn, travel as u32 + 1);
+        Ok(next)
+    }
+
+    /// The pose graph of the reported places, and what travels from a place to itself add to χ².
+    pub(crate) fn graph(&self, travels: &[MeasuredTravel]) -> Result<(PoseGraph, f64), UncertaintyError> {
+        let mut graph = PoseGraph::new();
+        for &pose in &self.layout.poses {
+            graph.add_pose(pose);
+        }
+        let mut loops = 0.0;
+        for leg in &self.legs {
+            let [first, last] = leg.travels;
+            let measured = compose(&travels[first as usize..=last as usize])?;
+            let end = |(pose, turn)| (pose, turned(turn));
+            let placed = measured.between(end(leg.from), end(leg.to));
+            if placed.from == placed.to {
+                loops += placed.chi2_as_loop();
+            } else {
+                graph.add_edge(placed.edge()).expect("a state has its places, and odometry is finite");
+            }
+        }
+        graph.anchor(PoseId(0)).expect("every state has its first place");
+        Ok((graph, loops))
+    }
+
+    /// How each travel is explained.
+    pub(crate) fn passages(&self) -> Vec<Passage> {
+        let traces = std::iter::successors(self.trace.as_ref(), |trace| trace.before.as_ref());
+        let mut passages: Vec<Passage> = traces.map(|trace| trace.step.clone()).collect();
+        passages.reverse();
+        passages
+    }
+
+    pub(crate) fn bytes(&self) -> u64 {
+        let chart = self.account.chart.end_count() * 64 + self.places.len() * 80;
+        let own =
+            self.layout.poses.len() * 24 + self.bearings.len() * 24 + self.legs.len() * size_of::<Leg>();
+        (chart + own) as u64
+    }
+}
+
+fn turned(turn: f64) -> Pose {
+    Pose::new(0.0, 0.0, turn)
+}
+
+/// Travels one after the other, as one.
+fn compose(travels: &[MeasuredTravel]) -> Result<MeasuredTravel, UncertaintyError> {
+    let uncertain =
+        |travel: &MeasuredTravel| UncertainPose { mean: travel.pose, covariance: travel.covariance };
+    let mut all = travels[0];
+    for travel in &travels[1..] {
+        let UncertainPose { mean, covariance } = uncertain(&all).compose(&uncertain(travel))?;
+        all = MeasuredTravel { pose: mean, covariance };
+    }
+    Ok(all)
+}
+
+/// The end that the robot came in by.
+pub(crate) fn sight<'a>(experience: &'a Experience, travel: usize) -> (Observation, Sight<'a>) {
+    let observation = experience.observations[travel];
+    let entry: Olp = observation.entry;
+    (observation, Sight { star: experience.catalog.star(observation.star), entry })
+}
