@@ -49,7 +49,7 @@ impl BearingError {
 
 /// Checks that bearings, in radians counterclockwise, decrease along the clockwise order of the
 /// star's ends and come around in one full turn. Ends without a bearing are passed over.
-pub(crate) fn check_bearings(star: &Star, bearings: &[Option<f64>]) -> Result<(), BearingError> {
+pub fn check_bearings(star: &Star, bearings: &[Option<f64>]) -> Result<(), BearingError> {
     let measured: Vec<(OlpName, f64)> = star
         .olps()
         .zip(bearings)

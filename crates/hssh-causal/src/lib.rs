@@ -56,7 +56,7 @@ mod exploration;
 mod format;
 pub mod schema;
 
-pub use bearings::BearingError;
+pub use bearings::{BearingError, check_bearings};
 pub use doubt::{Doubt, Question};
 pub use exploration::{
     Exploration, ExplorationError, NamedStar, Odometry, OdometryError, StarType, Travel, TravelError,

@@ -14,5 +14,5 @@ pub use cost::Cost;
 pub(crate) use layout::{Layout, Strain};
 pub use model::{Corridor, MapPrior, Metrical, ModelError, PlacePrior, PosteriorModel};
 pub use outlook::LINEAR_TRUST;
-pub(crate) use outlook::{Sameness, trust};
+pub(crate) use outlook::Sameness;
 pub(crate) use tariff::Tariff;

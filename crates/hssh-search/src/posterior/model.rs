@@ -3,7 +3,7 @@
 use std::f64::consts::TAU;
 
 use hssh_causal::{Exploration, Odometry};
-use hssh_metrics::{UniformPrior, wrap_angle};
+use hssh_metrics::{Pose, UniformPrior, wrap_angle};
 use hssh_topology::{Simplicity, SimplicityError};
 
 /// The posterior probability of a map: (4.5), metrical likelihood times prior.
@@ -86,6 +86,12 @@ impl Corridor {
         let length = -0.5 * along * along - (distance * self.spread).ln() - 0.5 * TAU.ln();
         // dx dy = distance · d(distance) d(way)
         length - distance.ln() + self.direction(way, exit) + self.direction(way_back, entry)
+    }
+
+    /// What it costs that a corridor is so long, against the usual length: nats, never negative.
+    pub(crate) fn price_of_length(self, way: Pose) -> f64 {
+        let along = (way.x.hypot(way.y) / self.length).max(f64::MIN_POSITIVE).ln() / self.spread;
+        0.5 * along * along
     }
 
     /// What it costs that a way leads off a gateway's bearing by so much, against one that does not: nats, never negative.

@@ -202,7 +202,6 @@ impl Appraise for ByReading {
                     exit: state.account.exit(observation.exit),
                     sight,
                     seen,
-                    new_place: self.tariff.new_place(travel),
                     corridor: self.tariff.corridor(),
                     bearing_deviation: self.bearing_deviation,
                 },

@@ -1,6 +1,6 @@
 //! The exploration as it must have been, if an account is right: every visit to every place, each with the place's whole star.
 
-use hssh_causal::{Exploration, ExplorationError, NamedStar, Odometry, StarType, Travel};
+use hssh_causal::{Exploration, ExplorationError, NamedStar, Odometry, StarType, Travel, check_bearings};
 use hssh_metrics::Pose;
 use hssh_topology::{Account, Arrival, ChartEnd, Element, Olp, PlaceId, Sight};
 
@@ -124,12 +124,7 @@ impl ReadMap {
     /// # Errors
     /// Never, if the exploration is the one that was read.
     pub fn corrected(&self, exploration: &Exploration) -> Result<Corrected, ExplorationError> {
-        let named = |place: PlaceId| NamedStar {
-            name: format!("P{place}"),
-            star: self.chart.star(place),
-            bearings: vec![None; self.chart.ends_of(place).len()],
-        };
-        let stars: Vec<NamedStar> = self.chart.places().map(named).collect();
+        let stars: Vec<NamedStar> = self.chart.places().map(|place| self.named_star(place)).collect();
         let mut course = Course { travels: Vec::new(), told: vec![Some(0)], places: vec![PlaceId::new(0)] };
         let mut account = Account::begin(exploration.star(exploration.start()));
         for (index, (travel, passage)) in exploration.travels().iter().zip(&self.passages).enumerate() {
@@ -147,6 +142,18 @@ impl ReadMap {
         let Course { travels, told, places } = course;
         let exploration = Exploration::new(stars, StarType(0), travels)?;
         Ok(Corrected { exploration, told, places })
+    }
+
+    /// The star of a place, with bearings as far as they agree with the clockwise order: those of ends that were first seen later need not.
+    fn named_star(&self, place: PlaceId) -> NamedStar {
+        let ends = self.chart.ends_of(place);
+        let (name, star) = (format!("P{place}"), self.chart.star(place));
+        let bearings: Vec<Option<f64>> = ends.iter().map(|end| self.bearings[end.index()]).collect();
+        let bearings = match check_bearings(&star, &bearings) {
+            Ok(()) => bearings,
+            Err(_) => vec![None; ends.len()],
+        };
+        NamedStar { name, star, bearings }
     }
 
     /// The travels from one reported place to the next: through those that were passed, and those found on the way later.

@@ -8,11 +8,22 @@ use hssh_topology::{Arrival, ChartEnd, Hop, Olp, PlaceId, Reading, Sight, Way, W
 use nalgebra::Matrix3;
 
 use crate::measured::{MeasuredTravel, PlacedTravel};
-use crate::posterior::{Corridor, Strain, trust};
+use crate::posterior::{Corridor, Strain};
 use crate::reading::state::{Bearing, State};
 
 /// A variance of headings that says nothing about them: rad².
 const ANY_HEADING: f64 = 100.0;
+
+/// A visit to a place that costs more than that for how far it lies off is none: ten standard deviations.
+const OUT_OF_THE_QUESTION: f64 = 50.0;
+
+/// A way that nobody measured and that costs more than that for how it leads is none.
+const UNLIKELY_WAY: f64 = 8.0;
+
+/// Infinitely much for a way that is none.
+fn unlikely(price: f64) -> f64 {
+    if price > UNLIKELY_WAY { f64::INFINITY } else { price }
+}
 
 /// One travel of a state that is about to be explained, as it was measured.
 pub(crate) struct Geometry<'a> {
@@ -23,8 +34,6 @@ pub(crate) struct Geometry<'a> {
     exit: ChartEnd,
     sight: Sight<'a>,
     seen: &'a [Bearing],
-    /// What a new place costs.
-    new_place: f64,
     corridor: Option<Corridor>,
     /// How far bearings of the same end lie apart: rad.
     bearing_deviation: Option<f64>,
@@ -42,7 +51,6 @@ pub(crate) struct Measurement<'a> {
     pub(crate) exit: ChartEnd,
     pub(crate) sight: Sight<'a>,
     pub(crate) seen: &'a [Bearing],
-    pub(crate) new_place: f64,
     pub(crate) corridor: Option<Corridor>,
     pub(crate) bearing_deviation: Option<f64>,
 }
@@ -50,8 +58,7 @@ pub(crate) struct Measurement<'a> {
 impl<'a> Geometry<'a> {
     /// `None` if the travels since the last visit cannot be composed.
     pub(crate) fn new(state: &'a State, measurement: Measurement<'a>) -> Option<Self> {
-        let Measurement { travel, travels, exit, sight, seen, new_place, corridor, bearing_deviation } =
-            measurement;
+        let Measurement { travel, travels, exit, sight, seen, corridor, bearing_deviation } = measurement;
         Some(Geometry {
             state,
             travels,
@@ -59,7 +66,6 @@ impl<'a> Geometry<'a> {
             exit,
             sight,
             seen,
-            new_place,
             corridor,
             bearing_deviation,
             marginals: OnceCell::new(),
@@ -170,7 +176,11 @@ impl<'a> Geometry<'a> {
     fn price_between(&self, a: ChartEnd, b: ChartEnd) -> f64 {
         let located = |end: ChartEnd| self.state.located(self.state.account.chart.end(end).place);
         match (located(a), located(b)) {
-            (Some(at_a), Some(at_b)) => self.price_of_way(a, at_b) + self.price_of_way(b, at_a),
+            (Some(at_a), Some(at_b)) => {
+                let way = at_a.between(at_b);
+                let length = self.corridor.map_or(0.0, |corridor| corridor.price_of_length(way));
+                length + self.price_of_way(a, at_b) + self.price_of_way(b, at_a)
+            }
             _ => 0.0,
         }
     }
@@ -191,7 +201,7 @@ impl<'a> Geometry<'a> {
         pairs.iter().filter_map(off).map(|off| 0.5 * off * off).sum()
     }
 
-    /// How much χ²/2 rises at least if the robot is at that place, whatever its frame is turned by.
+    /// How much χ²/2 rises if the robot is at that place, whatever its frame is turned by: the linear estimate.
     fn least_bend(&self, pose: PoseId) -> f64 {
         if let Some(&least) = self.at_least.borrow().get(&pose) {
             return least;
@@ -201,14 +211,7 @@ impl<'a> Geometry<'a> {
             placed.covariance.matrix() + Matrix3::from_diagonal(&nalgebra::vector![0.0, 0.0, ANY_HEADING]);
         let least = Covariance::new(blurred).ok().and_then(|covariance| {
             let turned = PlacedTravel { covariance, ..placed };
-            let bent = Strain::of(&turned, self.marginals()?).ok()?;
-            let known = Strain::of(&placed, self.marginals()?).ok()?;
-            let trust = if placed.from == placed.to {
-                trust(placed.covariance.matrix()[(2, 2)])
-            } else {
-                known.trust
-            };
-            Some(0.5 * trust * bent.chi2)
+            Some(0.5 * Strain::of(&turned, self.marginals()?).ok()?.chi2)
         });
         let least = least.unwrap_or(0.0);
         self.at_least.borrow_mut().insert(pose, least);
@@ -218,25 +221,26 @@ impl<'a> Geometry<'a> {
 
 impl Whereabouts for Geometry<'_> {
     fn at(&self, place: PlaceId) -> f64 {
-        self.state.pose_of(place).map_or(self.new_place.max(0.0), |pose| self.least_bend(pose))
+        let bend = self.state.pose_of(place).map_or(0.0, |pose| self.least_bend(pose));
+        if bend > OUT_OF_THE_QUESTION { f64::INFINITY } else { bend }
     }
 
     fn at_new_place(&self) -> f64 {
-        self.new_place
+        0.0
     }
 
     fn at_new_place_between(&self, [from, to]: [ChartEnd; 2]) -> f64 {
         let chart = &self.state.account.chart;
         let known = |end: ChartEnd| end != self.exit && end.index() < chart.end_count();
         let ways = [from, to].into_iter().filter(|&end| known(end)).map(|end| self.towards_arrival(end));
-        self.new_place + ways.sum::<f64>()
+        unlikely(ways.sum())
     }
 
-    fn passing(&self, _: PlaceId) -> f64 {
-        0.0
+    fn along(&self, from: ChartEnd, to: ChartEnd) -> f64 {
+        unlikely(self.price_between(from, to))
     }
 
     fn underway(&self) -> f64 {
-        self.new_place
+        0.0
     }
 }

@@ -74,8 +74,11 @@ pub struct ReadMap {
     pub chart: Chart,
     /// The map that it makes.
     pub map: TopologicalMap,
-    /// By place: its frame in that of the first place; `None` if it was only passed, or nothing was measured.
+    /// By place: its frame in that of the first place; that of a place that was only passed is made up, between its neighbors. `None` if
+    /// nothing was measured.
     pub poses: Vec<Option<Pose>>,
+    /// By end of the chart: its bearing in the frame of its place, where it was measured, rad.
+    pub bearings: Vec<Option<f64>>,
     /// How each travel is explained.
     pub passages: Vec<Passage>,
 }
@@ -174,16 +177,44 @@ fn maps(engine: &Engine<ByReading>) -> Vec<ReadMap> {
 
 fn read_map(state: &State, map: &TopologicalMap, cost: Cost) -> ReadMap {
     let chart = &state.account.chart;
-    let is_laid_out =
-        state.layout.poses.len() > 1 && state.layout.poses.iter().any(|&pose| pose != Pose::IDENTITY);
-    let pose = |place| if is_laid_out { state.located(place) } else { None };
+    let is_laid_out = state.layout.poses.iter().any(|&pose| pose != Pose::IDENTITY);
+    let mut poses: Vec<Option<Pose>> =
+        chart.places().map(|place| state.located(place).filter(|_| is_laid_out)).collect();
+    if is_laid_out {
+        place_between(chart, &mut poses);
+    }
+    let mut bearings = vec![None; chart.end_count()];
+    for &end in chart.places().flat_map(|place| chart.ends_of(place)) {
+        bearings[end.index()] =
+            state.bearing(end).filter(|bearing| bearing.measured).map(|bearing| bearing.angle);
+    }
     ReadMap {
         cost,
         at_most: 1.0,
         chart: chart.clone(),
         map: map.clone(),
-        poses: chart.places().map(pose).collect(),
+        poses,
+        bearings,
         passages: state.passages(),
+    }
+}
+
+/// Places that were only passed lie halfway between those that they are linked to.
+fn place_between(chart: &Chart, poses: &mut [Option<Pose>]) {
+    loop {
+        let mut any = false;
+        for place in chart.places() {
+            let linked = chart.open_ends_of(place).filter_map(|end| chart.end(end).link);
+            let around: Vec<Pose> = linked.filter_map(|end| poses[chart.end(end).place.index()]).collect();
+            if poses[place.index()].is_none() && !around.is_empty() {
+                let mean = |of: fn(&Pose) -> f64| around.iter().map(of).sum::<f64>() / around.len() as f64;
+                poses[place.index()] = Some(Pose::new(mean(|pose| pose.x), mean(|pose| pose.y), 0.0));
+                any = true;
+            }
+        }
+        if !any {
+            return;
+        }
     }
 }
 

@@ -52,7 +52,7 @@ impl ReadingModel {
         hidden: 0.0,
         false_visit: 0.0,
         turned_back: 0.0,
-        limit: 25.0,
+        limit: 12.0,
         most_passed: 0,
     };
 
@@ -88,7 +88,7 @@ impl Default for ReadingModel {
             hidden: 0.10,
             false_visit: 0.05,
             turned_back: 0.05,
-            limit: 25.0,
+            limit: 12.0,
             most_passed: 2,
         }
     }

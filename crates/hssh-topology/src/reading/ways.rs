@@ -8,7 +8,7 @@ use super::way::{Arrival, Hop, Way};
 use crate::ids::{Olp, PlaceId};
 
 /// What else is known of where the robot can be: what it costs at least, on top of the prices of perception, so that no way is
-/// spelled out that costs too much. Nats, never negative.
+/// spelled out that is out of the question: what costs infinitely much. Nats.
 pub trait Whereabouts {
     /// The robot is at a place of the chart.
     fn at(&self, place: PlaceId) -> f64;
@@ -16,8 +16,8 @@ pub trait Whereabouts {
     fn at_new_place(&self) -> f64;
     /// That is on the way between two ends that are linked.
     fn at_new_place_between(&self, ends: [ChartEnd; 2]) -> f64;
-    /// It passed a place of the chart.
-    fn passing(&self, place: PlaceId) -> f64;
+    /// It went from one end to another that it was not known to be linked to.
+    fn along(&self, from: ChartEnd, to: ChartEnd) -> f64;
     /// It is underway.
     fn underway(&self) -> f64;
 }
@@ -39,7 +39,7 @@ impl Whereabouts for Anywhere {
         0.0
     }
 
-    fn passing(&self, _: PlaceId) -> f64 {
+    fn along(&self, _: ChartEnd, _: ChartEnd) -> f64 {
         0.0
     }
 
@@ -90,7 +90,7 @@ struct Listing<'a> {
 impl Listing<'_> {
     /// Lists a way, unless it costs too much.
     fn offer(&mut self, price: f64, at_least: f64, arrival: Arrival) {
-        if price + at_least <= self.model.limit {
+        if price <= self.model.limit && at_least < f64::INFINITY {
             self.ways.push(Way { hops: self.hops.clone(), arrival, price });
         }
     }
@@ -104,8 +104,8 @@ impl Listing<'_> {
         price: f64,
         arrival: impl Fn(Reading) -> Arrival,
     ) {
-        let most = self.model.limit - price - self.whereabouts.at(place);
-        if most < 0.0 {
+        let most = self.model.limit - price;
+        if most < 0.0 || self.whereabouts.at(place) == f64::INFINITY {
             return;
         }
         let (hops, ways) = (&self.hops, &mut self.ways);
@@ -163,7 +163,7 @@ impl Listing<'_> {
         for &[from, to] in chart.links() {
             let at_least = self.whereabouts.at_new_place_between([from, to]);
             let price = price + self.model.price_of_passes(chart.end(from).passed);
-            if price + at_least > self.model.limit {
+            if price > self.model.limit || at_least == f64::INFINITY {
                 continue;
             }
             for back in self.other_gateways(&[self.sight.entry]) {
@@ -188,12 +188,13 @@ impl Listing<'_> {
             + self.model.price_of_passes(1)
             + (others as f64).ln().max(0.0)
             + chart.end(enter).sightings.price_of_travel(self.model);
-        if price + self.whereabouts.passing(place) > self.model.limit {
+        let is_linked = chart.end(exit).link.is_some();
+        if price > self.model.limit || (!is_linked && self.whereabouts.along(exit, enter) == f64::INFINITY) {
             return;
         }
         // One of its ends may be the one that the robot left by.
         for leave in chart.open_ends_of(place).filter(|&end| end != enter) {
-            if chart.end(exit).link.is_none() && leave == exit {
+            if !is_linked && leave == exit {
                 continue;
             }
             let travel = chart.end(leave).sightings.price_of_travel(self.model);

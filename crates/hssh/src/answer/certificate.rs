@@ -4,6 +4,8 @@ use serde::{Deserialize, Serialize};
 
 use super::input::AnsweredEvidence;
 use super::map::MapMeasure;
+use super::reading::ReadingAccount;
+use super::words::counted;
 
 /// How good a map is: what decides its rank.
 #[derive(Clone, Copy, PartialEq, Debug, Serialize, Deserialize)]
@@ -78,6 +80,21 @@ impl CertificateSummary {
                  contradicted by the rest), and places are where its ways part, turn back, or where one was sighted",
                 evidence.returns, evidence.unconfirmed, evidence.contradicted
             );
+        }
+    }
+
+    /// Says that the maps are those of an account of what was misread; what it does not prove, they do not either.
+    pub(crate) fn trust_readings(&mut self, account: &ReadingAccount) {
+        self.proved &= account.proved;
+        for trusted in self.trusted.iter_mut().filter(|trusted| trusted.assumption == Assumption::Perception)
+        {
+            let errors = counted(account.corrections.len(), "error");
+            let others = if account.proved {
+                "no other account is as probable, which is proved of the model of perception"
+            } else {
+                "other accounts may be more probable"
+            };
+            trusted.sentence = format!("perception made {errors}, those that are listed; {others}");
         }
     }
 

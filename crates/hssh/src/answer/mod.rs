@@ -11,6 +11,7 @@ mod input;
 mod map;
 mod picture;
 mod place;
+mod reading;
 mod rebuild;
 mod search;
 mod text;
@@ -28,6 +29,7 @@ pub use input::{AnsweredEvidence, AnsweredInput, InputKind};
 pub use map::{AnsweredMap, CostItem, CostSheet, CurrentPosition, MapMeasure};
 pub use picture::{MapPicture, PictureError};
 pub use place::{AnsweredEnd, AnsweredLink, AnsweredPath, AnsweredPlace, EndReference, EndState, PlacedPose};
+pub use reading::{CorrectionKind, ReadingAccount, ReadingCorrection};
 pub use rebuild::RebuiltMap;
 pub use search::{FoundCounts, SearchLevel, SearchObjective, SearchOrder, SearchSummary};
 pub use text::Listing;
@@ -57,6 +59,10 @@ pub struct Answer {
     pub maps: Vec<AnsweredMap>,
     /// What the robot visited, the start first, and where that is in the first map.
     pub visits: Vec<VisitRecord>,
+    /// What of the exploration is taken for misread, if errors of perception were reckoned with: then travels, visits and maps are those
+    /// of the exploration as it must have been.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub readings: Option<ReadingAccount>,
     /// What was decided with little reason, or left out.
     pub warnings: Vec<AnswerWarning>,
 }

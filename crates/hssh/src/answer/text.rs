@@ -28,6 +28,7 @@ impl Answer {
         if listing.levels {
             text += &self.levels();
         }
+        text += &self.misread();
         text += &self.conclusion(listing);
         text += &self.ranking(listing);
         text
@@ -98,6 +99,21 @@ impl Answer {
             );
         }
         text + &self.proof()
+    }
+
+    /// What is taken for misread, visit by visit.
+    fn misread(&self) -> String {
+        let Some(readings) = &self.readings else { return String::new() };
+        let mut text = format!(
+            "  errors of perception            {:>14}\n  … cost                          {:>14.3} of {:.3} nats\n",
+            readings.corrections.len(),
+            readings.nats_of_errors,
+            readings.nats
+        );
+        for correction in &readings.corrections {
+            let _ = writeln!(text, "    {}", correction.sentence);
+        }
+        text
     }
 
     /// What is proved.

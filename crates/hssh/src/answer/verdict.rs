@@ -5,6 +5,7 @@ use serde::{Deserialize, Serialize};
 
 use super::certificate::CertificateSummary;
 use super::input::AnsweredInput;
+use super::reading::ReadingAccount;
 use super::search::{SearchObjective, SearchOrder, SearchSummary};
 use super::words::counted;
 
@@ -87,6 +88,26 @@ impl Verdict {
             sentence += &format!(" Given that the robot was back where the laser shows it: {returns}.");
         }
         Verdict { kind, sentence, lost_at_travel }
+    }
+}
+
+impl Verdict {
+    /// The maps are those of an account of what was misread.
+    pub(crate) fn rest_on(&mut self, account: &ReadingAccount) {
+        let errors = counted(account.corrections.len(), "error");
+        if account.proved {
+            self.sentence += &format!(
+                " Given {errors} of perception, which no account does better with: proved of the model."
+            );
+            return;
+        }
+        if matches!(self.kind, VerdictKind::OneBest | VerdictKind::SeveralBest) {
+            self.kind = VerdictKind::Unproved;
+        }
+        self.sentence = format!(
+            "this map explains the exploration with {errors} of perception; whether another account is more probable was not proved."
+        );
+        self.sentence = capitalized(&self.sentence);
     }
 }
 

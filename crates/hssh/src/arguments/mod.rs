@@ -78,6 +78,9 @@ pub(crate) struct MapArguments {
     /// Write what the proof rests on, for `hssh verify`.
     #[arg(long, value_name = "FILE")]
     pub(crate) certificate: Option<PathBuf>,
+    /// With --readings: write the exploration as it must have been, as RON.
+    #[arg(long, value_name = "FILE", requires = "readings")]
+    pub(crate) corrected: Option<PathBuf>,
     /// Write the pose graph of the best map, laid out, as g2o.
     #[arg(long, value_name = "FILE")]
     pub(crate) g2o: Option<PathBuf>,

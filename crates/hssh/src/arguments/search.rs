@@ -25,6 +25,11 @@ pub(crate) struct SearchArguments {
     #[arg(long, value_name = "N", help_heading = "Search")]
     pub(crate) threads: Option<usize>,
 
+    /// Reckon with errors of perception, each at its price (see docs/readings.md): gateways missed or imagined, places passed
+    /// unreported, visits to none, turning on the way. Every travel must be measured.
+    #[arg(long, help_heading = "Search")]
+    pub(crate) readings: bool,
+
     #[command(flatten)]
     pub(crate) posterior: PosteriorArguments,
     #[command(flatten)]
@@ -104,6 +109,9 @@ impl SearchArguments {
         self.axioms.apply(&mut options);
         options.search.method = self.search.or(options.search.method);
         options.search.closed |= self.closed;
+        if self.readings {
+            options.readings.model.get_or_insert_default();
+        }
         options.search.threads = self.threads.unwrap_or(options.search.threads);
         options.limits.nodes = self.max_nodes.or(options.limits.nodes);
         options.limits.seconds = self.max_time.or(options.limits.seconds);

@@ -14,7 +14,7 @@ use hssh_search::{
 use hssh_topology::{GenusRank, Hypothesis, MapOlp, Measure, Position, Preference, StarCatalog};
 
 use super::error::{PipelineError, SearchFailure};
-use super::options::{GenusOrder, MappingOptions, MetricalScore, PriorKind, SearchMethod};
+use super::options::{GenusOrder, MappingOptions, MetricalScore, PriorKind, SearchLimits, SearchMethod};
 use crate::answer::{
     Assumption, CertificateSummary, CostItem, CostSheet, EndReference, FoundCounts, MapDifference,
     MapMeasure, PartingVisit, SearchLevel, SearchObjective, SearchOrder, SearchSummary, TestTravels, Trusted,
@@ -137,34 +137,47 @@ impl Task<'_> {
     }
 
     fn limits(&self) -> Limits {
-        let limits = &self.options.limits;
-        // Whatever is longer than a duration can be is no limit.
-        let time = limits.seconds.and_then(|seconds| Duration::try_from_secs_f64(seconds).ok());
-        Limits { nodes: limits.nodes, time, bytes: Some(limits.mebibytes.saturating_mul(1 << 20)) }
+        self.options.limits.of_search()
     }
 
-    /// What makes a map probable.
     fn model(&self) -> Result<PosteriorModel, PipelineError> {
-        let posterior = &self.options.posterior;
-        let places = match posterior.area {
-            Some(area) => Some(PlacePrior::Uniform(UniformPrior::over_area(area)?)),
-            None => Corridor::typical_of(self.exploration).map(PlacePrior::Corridor),
-        };
-        let metrical = match posterior.score {
-            MetricalScore::Likelihood => Metrical::Likelihood,
-            MetricalScore::Ignored => Metrical::Ignored,
-            // Without any measured distance nothing is laid out, and the search will say so.
-            MetricalScore::Evidence => places.map_or(Metrical::Likelihood, Metrical::Evidence),
-        };
-        let usual =
-            if posterior.score == MetricalScore::Evidence { PriorKind::Flat } else { PriorKind::Simplicity };
-        let prior = match posterior.prior.unwrap_or(usual) {
-            PriorKind::Flat => MapPrior::Flat,
-            PriorKind::Choices => MapPrior::Choices,
-            PriorKind::Simplicity => MapPrior::Simplicity(posterior.weights),
-        };
-        Ok(PosteriorModel { metrical, prior })
+        model(self.exploration, self.options)
     }
+}
+
+impl SearchLimits {
+    /// As the search takes them.
+    pub(super) fn of_search(&self) -> Limits {
+        // Whatever is longer than a duration can be is no limit.
+        let time = self.seconds.and_then(|seconds| Duration::try_from_secs_f64(seconds).ok());
+        Limits { nodes: self.nodes, time, bytes: Some(self.mebibytes.saturating_mul(1 << 20)) }
+    }
+}
+
+/// What makes a map of an exploration probable.
+pub(super) fn model(
+    exploration: &Exploration,
+    options: &MappingOptions,
+) -> Result<PosteriorModel, PipelineError> {
+    let posterior = &options.posterior;
+    let places = match posterior.area {
+        Some(area) => Some(PlacePrior::Uniform(UniformPrior::over_area(area)?)),
+        None => Corridor::typical_of(exploration).map(PlacePrior::Corridor),
+    };
+    let metrical = match posterior.score {
+        MetricalScore::Likelihood => Metrical::Likelihood,
+        MetricalScore::Ignored => Metrical::Ignored,
+        // Without any measured distance nothing is laid out, and the search will say so.
+        MetricalScore::Evidence => places.map_or(Metrical::Likelihood, Metrical::Evidence),
+    };
+    let usual =
+        if posterior.score == MetricalScore::Evidence { PriorKind::Flat } else { PriorKind::Simplicity };
+    let prior = match posterior.prior.unwrap_or(usual) {
+        PriorKind::Flat => MapPrior::Flat,
+        PriorKind::Choices => MapPrior::Choices,
+        PriorKind::Simplicity => MapPrior::Simplicity(posterior.weights),
+    };
+    Ok(PosteriorModel { metrical, prior })
 }
 
 impl Searched {

@@ -1,5 +1,6 @@
 //! Why there is no answer, or something of it cannot be had.
 
+use hssh_causal::ExplorationError;
 use hssh_local::{LatticeError, LogError, SurveyError};
 use hssh_metrics::PriorError;
 use hssh_search::{MapperError, PlacementError, ThreadsError};
@@ -37,6 +38,29 @@ pub enum PipelineError {
     /// The search.
     #[error(transparent)]
     Search(#[from] SearchFailure),
+    /// No account of an exploration with errors.
+    #[error(
+        "no account of the exploration was found, errors of perception included: {stop}; a higher readings.model.limit allows more errors in one travel"
+    )]
+    NoAccount {
+        /// Why the search stopped.
+        stop: String,
+    },
+    /// Errors of perception are reckoned with where travels are measured.
+    #[error(
+        "errors of perception can be told from other places only if every travel is measured: some travel of the exploration has no odometry"
+    )]
+    UnmeasuredReadings,
+    /// A log's visits are read by its survey.
+    #[error(
+        "readings are for explorations: visits along a laser log show one star at one place by the survey, and ways are the robot's own"
+    )]
+    ReadingsOfLog,
+    /// An account that makes no exploration.
+    #[error(
+        "the account makes no exploration: {0}\nhelp: this is a bug in hssh; please report it with the exploration"
+    )]
+    Corrected(Box<ExplorationError>),
     /// There is no map of that rank among those listed.
     #[error("there is no map number {asked}: only {found} {explain} the exploration", explain = if *found == 1 { "map explains" } else { "maps explain" })]
     NoSuchRank {

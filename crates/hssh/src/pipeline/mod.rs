@@ -6,6 +6,7 @@ mod error;
 mod input;
 mod options;
 mod places;
+mod reading;
 
 pub use engine::Monitor;
 pub use error::{PipelineError, SearchFailure};
@@ -15,6 +16,7 @@ pub use options::{
     SearchLimits, SearchMethod,
 };
 pub use places::PlaceChoice;
+pub use reading::ReadingChoice;
 
 use std::sync::Arc;
 use std::thread::available_parallelism;
@@ -27,7 +29,7 @@ use hssh_local::{
 use hssh_metrics::{Pose, PoseGraph};
 use hssh_topology::{Isomorphism, Position};
 
-use crate::answer::{Answer, AnswerWarning, AnsweredMap, Spot, Verdict, WarningKind};
+use crate::answer::{Answer, AnswerWarning, AnsweredMap, ReadingAccount, Spot, Verdict, WarningKind};
 use assemble::{Assembly, records};
 use engine::{Likeness, Searched, Task, Telling};
 
@@ -41,6 +43,8 @@ pub struct Mapped {
     searched: Searched,
     /// By rank.
     placed: Vec<PlacedMap>,
+    /// What the maps are of, if errors of perception were reckoned with.
+    corrected: Option<Exploration>,
 }
 
 /// Where a map has the robot on each visit, and its pose graph if travels were measured.
@@ -68,6 +72,29 @@ pub fn map(input: &Input, options: &MappingOptions, monitor: &Arc<Monitor>) -> R
     }
     options.search.threads = useful_threads(options.search.threads, &mut warnings);
     let method = options.method_for(&exploration)?;
+    let read = match options.readings.model {
+        None => None,
+        Some(_) if input.surveyed.is_some() => return Err(PipelineError::ReadingsOfLog),
+        Some(_) if exploration.travels().iter().any(|travel| travel.odometry.is_none()) => {
+            return Err(PipelineError::UnmeasuredReadings);
+        }
+        Some(model) => {
+            let posterior = engine::model(&exploration, &options)?;
+            Some(reading::read(&exploration, model, posterior, &options, monitor)?)
+        }
+    };
+    if let Some(reading::Read { exploration, account }) = read {
+        let corrected = Input::exploration(input.name.clone(), exploration);
+        let exact = MappingOptions {
+            readings: ReadingChoice::default(),
+            limits: SearchLimits { travels: None, ..options.limits },
+            ..options
+        };
+        let mut mapped = map(&corrected, &exact, monitor)?;
+        mapped.rest_on(account, warnings);
+        mapped.corrected = Some(corrected.exploration);
+        return Ok(mapped);
+    }
     let likeness = input.surveyed.as_ref().map(|surveyed| surveyed.likeness(options.posterior.likeness));
     let task = Task { exploration: &exploration, options: &options, method, likeness, monitor };
     let searched = task.search()?;
@@ -87,9 +114,10 @@ pub fn map(input: &Input, options: &MappingOptions, monitor: &Arc<Monitor>) -> R
         certificate,
         visits: records(input, considered, maps.first()),
         maps,
+        readings: None,
         warnings,
     };
-    Ok(Mapped { answer, searched, placed })
+    Ok(Mapped { answer, searched, placed, corrected: None })
 }
 
 /// The maps of the ranking, placed where measured travels allow it.
@@ -222,7 +250,26 @@ impl Mapped {
     #[must_use]
     pub fn certificate(&self, input: &Input) -> Option<String> {
         let travels = self.answer.input.explained as usize;
-        self.searched.certificate_text(&input.exploration.prefix(travels))
+        let exploration = self.corrected.as_ref().unwrap_or(&input.exploration);
+        self.searched.certificate_text(&exploration.prefix(travels))
+    }
+
+    /// The exploration as it must have been, if errors of perception were reckoned with: what the maps are of.
+    #[must_use]
+    pub fn corrected(&self) -> Option<&Exploration> {
+        self.corrected.as_ref()
+    }
+
+    /// The maps are those of an account of what was misread: no more probable than that.
+    fn rest_on(&mut self, account: ReadingAccount, warnings: Vec<AnswerWarning>) {
+        for map in &mut self.answer.maps {
+            map.probability = map.probability.map(|[_, most]| [0.0, most * account.at_most]);
+            map.optimal &= account.proved;
+        }
+        self.answer.certificate.trust_readings(&account);
+        self.answer.verdict.rest_on(&account);
+        self.answer.warnings.splice(0..0, warnings);
+        self.answer.readings = Some(account);
     }
 
     /// The tree that was searched, with the best maps framed; maps are taken along up to `most_maps` nodes. `None` if it was

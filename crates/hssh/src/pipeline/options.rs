@@ -8,6 +8,7 @@ use serde::{Deserialize, Serialize};
 
 use super::error::PipelineError;
 use super::places::PlaceChoice;
+use super::reading::ReadingChoice;
 
 /// How to come to an answer. Read from a RON file, whatever it leaves out has its default, and what it should not say is
 /// refused with line and column:
@@ -33,6 +34,8 @@ pub struct MappingOptions {
     pub axioms: Axioms,
     /// What makes a map probable.
     pub posterior: PosteriorChoice,
+    /// Whether perception may have erred.
+    pub readings: ReadingChoice,
     /// When to stop.
     pub limits: SearchLimits,
     /// How many maps the answer lists; all if none is said.
@@ -46,6 +49,7 @@ impl Default for MappingOptions {
             search: SearchChoice::default(),
             axioms: Axioms::default(),
             posterior: PosteriorChoice::default(),
+            readings: ReadingChoice::default(),
             limits: SearchLimits::default(),
             listed: Some(10),
         }

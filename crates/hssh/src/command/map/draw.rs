@@ -24,9 +24,10 @@ pub(super) fn is_asked(arguments: &MapArguments) -> bool {
 
 /// Refuses outputs that cannot be written, before anything is searched.
 pub(super) fn check(arguments: &MapArguments) -> Result<(), Failure> {
-    let MapArguments { svg, dot, tree, g2o, grid, trajectory, certificate, .. } = arguments;
+    let MapArguments { svg, dot, tree, g2o, grid, trajectory, certificate, corrected, .. } = arguments;
     let grid_image = grid.as_deref().filter(|grid| is_yaml(grid)).map(|grid| grid.with_extension("pgm"));
-    let outputs = [svg, dot, tree, g2o, grid, trajectory, certificate, &grid_image].map(Option::as_ref);
+    let outputs =
+        [svg, dot, tree, g2o, grid, trajectory, certificate, corrected, &grid_image].map(Option::as_ref);
     check_outputs(&[&arguments.file], outputs)?;
     check_folder(arguments.debug_dir.as_ref())
 }

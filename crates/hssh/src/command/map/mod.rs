@@ -42,6 +42,9 @@ pub(crate) fn run(arguments: &MapArguments) -> Result<Status, Failure> {
         let certificate = mapped.certificate(&input).ok_or(Failure::NothingProved);
         written.note(certificate.and_then(|certificate| write_file(file, &certificate)));
     }
+    if let (Some(file), Some(exploration)) = (&arguments.corrected, mapped.corrected()) {
+        written.note(write_file(file, &exploration.to_ron()));
+    }
     draw::draw(arguments, &input, &mapped, &mut written)?;
     written.done()?;
     Ok(Status::of(&mapped.answer))
