@@ -18,6 +18,7 @@ mod robot;
 mod root;
 mod score;
 mod table;
+mod theory;
 
 use std::error::Error;
 use std::process::ExitCode;
@@ -51,5 +52,6 @@ fn run(command: ExperimentsCmd) -> Result<(), Box<dyn Error>> {
         ExperimentsCmd::Log(flags) => log::run(&flags.data),
         ExperimentsCmd::Calibrate(flags) => calibrate::run(&flags),
         ExperimentsCmd::Robot(flags) => robot::run(&flags),
+        ExperimentsCmd::Theory(flags) => theory::run(&flags),
     }
 }
