@@ -98,10 +98,20 @@ impl Clingo {
         running.stdin.take().expect("it is piped").write_all(facts.as_bytes())?;
         let output = running.wait_with_output()?;
         let complaint = || format!("{}: {}", self.call.join(" "), String::from_utf8_lossy(&output.stderr));
+        Ok(Reply::read(&output.stdout).map_err(|problem| format!("{problem}\n{}", complaint()))?)
+    }
+}
+
+impl Reply {
+    /// Reads what clingo printed with `--outf=2`.
+    ///
+    /// # Errors
+    /// If it is no such document, or clingo did not come to an end.
+    fn read(json: &[u8]) -> Result<Self, String> {
         let document: Document =
-            serde_json::from_slice(&output.stdout).map_err(|error| format!("{error}\n{}", complaint()))?;
+            serde_json::from_slice(json).map_err(|error| format!("what it printed is no answer: {error}"))?;
         if !["SATISFIABLE", "UNSATISFIABLE", "OPTIMUM FOUND"].contains(&document.result.as_str()) {
-            return Err(format!("the result is {}\n{}", document.result, complaint()).into());
+            return Err(format!("it did not come to an end: the result is {}", document.result));
         }
         let witnesses: Vec<Witness> = document.call.into_iter().flat_map(|call| call.witnesses).collect();
         let costs = witnesses.last().map_or_else(Vec::new, |last| last.costs.clone());
@@ -113,4 +123,28 @@ impl Clingo {
 /// A file of the theory.
 pub(super) fn path(file: &str) -> PathBuf {
     root::root().join("theory").join(file).with_extension("lp")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_reply_is_read() {
+        let json = br#"{"Solver": "clingo version 5.8.0", "Input": ["-"], "Call": [{"Witnesses": [
+            {"Value": ["is(0,0)", "at(0,0)"], "Costs": [0, 2, 1]}, {"Value": ["is(0,0)"], "Costs": [0, 2, 1]}
+        ]}], "Result": "OPTIMUM FOUND", "Models": {"Number": 2, "More": "no"}, "Time": {"Total": 0.25, "Solve": 0.1}}"#;
+        let reply = Reply::read(json).unwrap();
+        assert_eq!(reply.models, [vec!["is(0,0)", "at(0,0)"], vec!["is(0,0)"]]);
+        assert_eq!((reply.costs, reply.seconds), (vec![0, 2, 1], 0.25));
+        let none = br#"{"Call": [{}], "Result": "UNSATISFIABLE", "Time": {"Total": 0.0}}"#;
+        assert_eq!(Reply::read(none).unwrap().models, Vec::<Vec<String>>::new());
+    }
+
+    #[test]
+    fn what_is_no_reply_is_refused() {
+        assert!(Reply::read(b"").unwrap_err().contains("no answer"));
+        let interrupted = br#"{"Result": "UNKNOWN", "Time": {"Total": 0.0}}"#;
+        assert!(Reply::read(interrupted).unwrap_err().contains("the result is UNKNOWN"));
+    }
 }

@@ -79,13 +79,44 @@ pub(super) fn of_axioms(axioms: &Axioms) -> String {
 }
 
 fn say(facts: &mut String, moment: Moment, view: usize, is_travelable: bool) {
-    let _ = write!(facts, "view({moment},{view}). ");
-    if is_travelable {
-        let _ = write!(facts, "travelable({moment}). ");
-    }
-    facts.push('\n');
+    let ahead = if is_travelable { format!(" travelable({moment}).") } else { String::new() };
+    let _ = writeln!(facts, "view({moment},{view}).{ahead}");
 }
 
 fn say_schema(facts: &mut String, from: Moment, action: &str, to: Moment) {
     let _ = writeln!(facts, "schema({from},{action},{to}).");
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A corridor with a dead end on either side, walked to the end and back.
+    fn corridor() -> Exploration {
+        let text = r#"(
+            stars: {"west": ["0+", "0- closed"], "east": ["0+ closed", "0-"]},
+            start: "west",
+            travels: [(exit: "0+", entry: "0-", star: "east"), (exit: "0-", entry: "0+", star: "west")],
+        )"#;
+        Exploration::from_ron(text).unwrap()
+    }
+
+    /// Both dead ends are one star, seen from different ends first.
+    #[test]
+    fn an_exploration_is_told_end_by_end() {
+        assert_eq!(openings(&corridor()), [0, 2, 4]);
+        insta::assert_snapshot!(of_exploration(&corridor()));
+    }
+
+    #[test]
+    fn a_trace_is_told_moment_by_moment() {
+        let trace = Trace::of(&corridor(), Sight::Ahead, hssh_causal::schema::Turning::Stepwise).unwrap();
+        insta::assert_snapshot!(of_trace(&trace));
+    }
+
+    #[test]
+    fn axioms_that_do_not_hold_are_not_told() {
+        let axioms = Axioms { no_circular_path: false, max_genus: Some(0), ..Axioms::default() };
+        assert_eq!(of_axioms(&axioms), "axiom(no_self_intersection).\naxiom(max_genus(0)).\n");
+    }
 }

@@ -127,3 +127,38 @@ impl Naming<'_> {
         contradictions
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// North from a crossing to another, back, and east to a third.
+    #[test]
+    fn maps_are_named_by_moments() {
+        let text = r#"(
+            stars: {"+": ["0+", "1+", "0-", "1-"], "end": ["0+", "0- closed"]},
+            start: "+",
+            travels: [
+                (exit: "0+", entry: "0-", star: "+"),
+                (exit: "0-", entry: "0+", star: "+"),
+                (exit: "1+", entry: "0+", star: "end"),
+            ],
+        )"#;
+        let exploration = Exploration::from_ron(text).unwrap();
+        let found = finals(&exploration, Axioms::default()).unwrap();
+        assert_eq!((found.models.len(), found.optimal, found.fewest_places()), (1, 1, 3));
+        let model = &found.models[0];
+        // Moments 0 to 3 are the first crossing's ends, 4 to 7 the second's, 8 to 11 the first's again, 12 and 13 the
+        // dead end's.
+        let states: Vec<Moment> = model.states.values().copied().collect();
+        assert_eq!(states, [0, 1, 2, 3, 4, 5, 6, 7, 0, 1, 2, 3, 12, 13]);
+        assert_eq!(model.places, BTreeMap::from([(0, 0), (4, 4), (8, 0), (12, 12)]));
+        assert_eq!(model.onward.iter().copied().collect::<Vec<_>>(), [(0, 4), (1, 13), (6, 2), (12, 3)]);
+        let downstream = [(0, 0), (0, 4), (1, 1), (1, 13), (5, 5)];
+        assert_eq!(model.downstream.iter().copied().collect::<Vec<_>>(), downstream);
+        // The dead end is right of the way north, the second crossing left of the way east; and the first crossing, which is
+        // south of the path across the second, right of it as one looks east.
+        let sides = [(0, Side::Right, 12), (1, Side::Left, 4), (5, Side::Right, 0)];
+        assert_eq!(model.sides.iter().copied().collect::<Vec<_>>(), sides);
+    }
+}

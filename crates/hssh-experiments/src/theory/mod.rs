@@ -43,7 +43,11 @@ pub(crate) fn run(flags: &flags::Theory) -> Result<(), Box<dyn Error>> {
         }
         return Err(absent.into());
     };
-    let compared = on_threads(flags.threads.unwrap_or(1), cases.len(), |index| compare(clingo, &cases[index]))?;
+    let compared = on_threads(flags.threads.unwrap_or(1), cases.len(), |index| {
+        let compared = compare(clingo, &cases[index]).map_err(|error| format!("{}: {error}", cases[index].name))?;
+        eprintln!("{}: compared {} times", cases[index].name, compared.len());
+        Ok(compared)
+    })?;
     println!("{HEADING}\n");
     println!("{}", rows(&cases, &compared));
     println!("{}", summary(&cases, &compared));

@@ -67,7 +67,7 @@ impl Case {
             Experience::Stars(exploration) => {
                 let repeats = self.kind == "ACES" && exploration.travels().len() > FEW;
                 *exploration = exploration.prefix(FEW);
-                let is_first = self.kind != "random" || self.name.ends_with("seed 1");
+                let is_first = self.kind != "random" || self.name.ends_with("density 1, seed 1");
                 is_first && !repeats
             }
             Experience::Schemas(_) => self.name.starts_with("2×2"),

@@ -19,7 +19,7 @@ const NONE: Axioms = Axioms {
     consistent_boundaries: false,
 };
 
-/// All combinations, with each bound too low, just right or absent where that makes a difference.
+/// All combinations that a search can decide, and bounds from too low to harmless.
 ///
 /// `places` is how many places the smallest map has.
 pub(super) fn all(places: u32) -> Vec<Switches> {
@@ -35,6 +35,7 @@ pub(super) fn all(places: u32) -> Vec<Switches> {
             max_places: None,
         }));
     }
+    all.retain(|one: &Switches| one.axioms.check().is_ok());
     for max_places in [places.saturating_sub(1).max(1), places, places + 1] {
         all.push(named(Axioms { max_places: Some(max_places), ..Axioms::default() }));
     }
