@@ -9,11 +9,11 @@ mod tests;
 
 use std::error::Error;
 
+use histories::glances;
+pub(crate) use histories::{History, histories};
 use hssh_causal::Exploration;
 use hssh_causal::schema::{Action, Sight, Trace, Turning};
 use hssh_search::Mapper;
-use histories::glances;
-pub(crate) use histories::{History, histories};
 use hypothesis::{Glance, Hypothesis};
 use serde::Serialize;
 

@@ -62,7 +62,7 @@ pub(super) fn by_stars(
     exploration: &Exploration,
     switches: &Switches,
 ) -> Result<Comparison, Box<dyn Error>> {
-    let axioms = switches.axioms;
+    let (axioms, whole) = (switches.axioms, exploration.travels().len());
     let explained = tractable(exploration, axioms, MOST as u64)?;
     let exploration = exploration.prefix(explained);
     let Finals { models, optimal, best, seconds, .. } = finals(&exploration, axioms)?;
@@ -73,7 +73,7 @@ pub(super) fn by_stars(
     Ok(Comparison {
         switches: switches.name.clone(),
         explained,
-        whole: explained,
+        whole,
         all: count(&read(&all)?, &models),
         optimal: Some(Count { equal: optima.equal && same_value, ..optima }),
         clingo: all.seconds,
@@ -88,7 +88,7 @@ pub(super) fn by_extensions(
     exploration: &Exploration,
     switches: &Switches,
 ) -> Result<Comparison, Box<dyn Error>> {
-    let axioms = switches.axioms;
+    let (axioms, whole) = (switches.axioms, exploration.travels().len());
     let explained = tractable(exploration, axioms, MOST as u64 / 4)?;
     let exploration = exploration.prefix(explained);
     let Finals { models, contradictions, seconds, .. } = finals(&exploration, axioms)?;
@@ -99,7 +99,7 @@ pub(super) fn by_extensions(
     Ok(Comparison {
         switches: format!("{}, all extensions", switches.name),
         explained,
-        whole: explained,
+        whole,
         all: Count {
             models: extensions.len(),
             maps: expected,

@@ -50,7 +50,11 @@ pub(super) fn finals(exploration: &Exploration, axioms: Axioms) -> Result<Finals
 }
 
 /// How many travels of an exploration are explained before any level of its tree has more than so many maps.
-pub(super) fn tractable(exploration: &Exploration, axioms: Axioms, most: u64) -> Result<usize, Box<dyn Error>> {
+pub(super) fn tractable(
+    exploration: &Exploration,
+    axioms: Axioms,
+    most: u64,
+) -> Result<usize, Box<dyn Error>> {
     let limits = Limits { nodes: Some(10 * most), ..Limits::default() };
     let mapper = Mapper::builder().axioms(axioms).limits(limits).explain(exploration)?;
     let report = mapper.report();
@@ -80,7 +84,11 @@ fn model(mapper: &Mapper, ranked: &RankedMap, exploration: &Exploration) -> (Mod
     }
     let mut model = Model {
         states: (0..).zip(ends.iter().map(|end| naming.state[end])).collect(),
-        places: openings.iter().copied().zip(first_stays.iter().map(|&stay| openings[stay as usize])).collect(),
+        places: openings
+            .iter()
+            .copied()
+            .zip(first_stays.iter().map(|&stay| openings[stay as usize]))
+            .collect(),
         ..Model::default()
     };
     let contradictions = naming.add_paths(&mut model);

@@ -13,7 +13,7 @@ use std::error::Error;
 use std::fs;
 use std::path::Path;
 
-use hssh_causal::Exploration;
+use hssh_causal::{Exploration, ParseError};
 use hssh_topology::Axioms;
 
 use crate::flags;
@@ -44,7 +44,8 @@ pub(crate) fn run(flags: &flags::Theory) -> Result<(), Box<dyn Error>> {
         return Err(absent.into());
     };
     let compared = on_threads(flags.threads.unwrap_or(1), cases.len(), |index| {
-        let compared = compare(clingo, &cases[index]).map_err(|error| format!("{}: {error}", cases[index].name))?;
+        let compared =
+            compare(clingo, &cases[index]).map_err(|error| format!("{}: {error}", cases[index].name))?;
         eprintln!("{}: compared {} times", cases[index].name, compared.len());
         Ok(compared)
     })?;
@@ -72,8 +73,11 @@ fn of_file(file: &Path) -> Result<Case, Box<dyn Error>> {
 
 fn read(file: &Path) -> Result<Exploration, Box<dyn Error>> {
     let bytes = fs::read(file).map_err(|error| format!("{}: {error}", file.display()))?;
-    let parsed = Exploration::from_ron_bytes(&bytes);
-    Ok(parsed.map_err(|error| error.render(&file.display().to_string(), &String::from_utf8_lossy(&bytes)))?)
+    let text = String::from_utf8_lossy(&bytes);
+    let render = |error: ParseError| error.render(&file.display().to_string(), &text);
+    let parsed = Exploration::from_ron_bytes(&bytes).map_err(render);
+    // The one who reports says that it is an error.
+    Ok(parsed.map_err(|rendered| rendered.trim_start_matches("error: ").to_owned())?)
 }
 
 /// All that is compared for one exploration.
@@ -128,7 +132,8 @@ fn summary(cases: &[Case], compared: &[Vec<Comparison>]) -> String {
     let mut kinds: Vec<&str> = cases.iter().map(|case| case.kind).collect();
     kinds.dedup();
     for kind in kinds.into_iter().map(Some).chain([None]) {
-        let of_kind = cases.iter().zip(compared).filter(|(case, _)| kind.is_none_or(|kind| case.kind == kind));
+        let of_kind =
+            cases.iter().zip(compared).filter(|(case, _)| kind.is_none_or(|kind| case.kind == kind));
         let explorations = of_kind.clone().count();
         let comparisons: Vec<&Comparison> = of_kind.flat_map(|(_, comparisons)| comparisons).collect();
         let equal = comparisons.iter().filter(|one| one.is_equal()).count();

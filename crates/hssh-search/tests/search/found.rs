@@ -13,8 +13,7 @@ use proptest::prelude::*;
 use proptest::sample::Index;
 
 use crate::cases::{
-    FREE, axioms, breadth_first, case, exploration, last_nodes, planar, shortened, sketch,
-    sketches,
+    FREE, axioms, breadth_first, case, exploration, last_nodes, planar, shortened, sketch, sketches,
 };
 
 fn told(sketch: &MapSketch, experience: &Experience) -> Result<Replay, Contradiction> {
