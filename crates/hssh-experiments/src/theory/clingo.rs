@@ -130,6 +130,21 @@ mod tests {
     use super::*;
 
     #[test]
+    fn the_documentation_quotes_rules_that_are_there() {
+        let files = std::fs::read_dir(root::root().join("theory")).unwrap();
+        let theory: String =
+            files.map(|file| std::fs::read_to_string(file.unwrap().path()).unwrap()).collect();
+        let page = std::fs::read_to_string(root::root().join("docs/theory.md")).unwrap();
+        let blocks = page.split("```prolog").skip(1).filter_map(|rest| rest.split_once("```"));
+        let quoted: Vec<&str> =
+            blocks.flat_map(|(block, _)| block.lines()).filter(|line| !line.is_empty()).collect();
+        assert!(quoted.len() > 10);
+        for line in quoted {
+            assert!(theory.lines().any(|rule| rule == line), "docs/theory.md quotes: {line}");
+        }
+    }
+
+    #[test]
     fn a_reply_is_read() {
         let json = br#"{"Solver": "clingo version 5.8.0", "Input": ["-"], "Call": [{"Witnesses": [
             {"Value": ["is(0,0)", "at(0,0)"], "Costs": [0, 2, 1]}, {"Value": ["is(0,0)"], "Costs": [0, 2, 1]}
