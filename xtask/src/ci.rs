@@ -25,6 +25,7 @@ pub(crate) fn run() -> Result<(), Box<dyn Error>> {
     let run = ["run", "--quiet", "--release", "--package", "hssh-experiments", "--"];
     step("experiments", || Ok(cmd!(shell, "cargo {run...} experiment --all --check --threads 0").run()?))?;
     step("robot", || Ok(cmd!(shell, "cargo {run...} robot --check --threads 0").run()?))?;
+    step("theory", || Ok(cmd!(shell, "cargo {run...} theory --small --optional --threads 0").run()?))?;
     match std::env::var_os("HSSH_DATA") {
         Some(data) => step("logs", || Ok(cmd!(shell, "cargo {run...} log {data}").run()?))?,
         None => println!("== logs: skipped, for HSSH_DATA names no data folder\n"),

@@ -11,7 +11,7 @@ use crate::root;
 const LONGEST: usize = 600;
 
 /// Where files are looked at.
-const FOLDERS: [&str; 6] = ["crates", "docs", "fixtures", "fuzz", "xtask", ".ci"];
+const FOLDERS: [&str; 7] = ["crates", "docs", "fixtures", "fuzz", "theory", "xtask", ".ci"];
 
 /// What no file may say: notes to oneself, and folders of one machine. Written in two halves, so
 /// that this file does not say them.

@@ -1,5 +1,6 @@
 //! Section 2.3.3: how many hypotheses the basic SSH has to keep, without stars, beside the hybrid one.
 
+mod histories;
 mod hypothesis;
 #[cfg(test)]
 mod oracle;
@@ -8,10 +9,11 @@ mod tests;
 
 use std::error::Error;
 
+use histories::glances;
+pub(crate) use histories::{History, histories};
 use hssh_causal::Exploration;
-use hssh_causal::schema::{Action, Sight, Trace, Turning, View, numbered_views};
+use hssh_causal::schema::{Action, Sight, Trace, Turning};
 use hssh_search::Mapper;
-use hssh_topology::Passability;
 use hypothesis::{Glance, Hypothesis};
 use serde::Serialize;
 
@@ -156,14 +158,6 @@ fn grown(hypotheses: &[Hypothesis], action: Action, glance: Glance) -> Option<Ve
         }
     }
     Some(grown)
-}
-
-/// The views of a trace as numbers, one per moment.
-fn glances(trace: &Trace) -> Vec<Glance> {
-    let numbers = numbered_views(trace);
-    let glance =
-        |view: &View| Glance { view: numbers[view], travelable: view.ahead().0 == Passability::Travelable };
-    trace.views().map(glance).collect()
 }
 
 fn text(accounts: &[Account]) -> String {

@@ -123,5 +123,21 @@ xflags::xflags! {
             /// Only small floors and usual noise, one drive each; fail if one goes wrong.
             optional --check
         }
+        /// Compares all maps and the optimal ones with the models of the logical theory (theory/), found by clingo;
+        /// fails if they differ.
+        cmd theory {
+            /// An exploration, with every combination of axioms.
+            optional file: PathBuf
+            /// More than 200 explorations: those of the thesis, small grids, random worlds, traces without stars.
+            optional --all
+            /// The short ones among them.
+            optional --small
+            /// With a file: print its facts for clingo instead.
+            optional --facts
+            /// Where there is no clingo, say so and succeed.
+            optional --optional
+            /// Explorations at once, 0 for one per core; 1 if not given.
+            optional --threads count: usize
+        }
     }
 }

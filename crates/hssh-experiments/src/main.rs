@@ -19,6 +19,7 @@ mod robot;
 mod root;
 mod score;
 mod table;
+mod theory;
 
 use std::error::Error;
 use std::process::ExitCode;
@@ -53,5 +54,6 @@ fn run(command: ExperimentsCmd) -> Result<(), Box<dyn Error>> {
         ExperimentsCmd::Calibrate(flags) => calibrate::run(&flags),
         ExperimentsCmd::Readings(flags) => readings::run(&flags),
         ExperimentsCmd::Robot(flags) => robot::run(&flags),
+        ExperimentsCmd::Theory(flags) => theory::run(&flags),
     }
 }

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use hssh_metrics::SolveError;
-use hssh_topology::{Axioms, Preference, ReadingModelError};
+use hssh_topology::{Axioms, AxiomsError, Preference, ReadingModelError};
 
 use crate::crew::ThreadsError;
 use crate::limits::{Limits, Monitor};
@@ -29,6 +29,9 @@ impl Default for Objective {
 /// Why a search cannot begin, or has no answer.
 #[derive(Debug, thiserror::Error)]
 pub enum MapperError {
+    /// The axioms do not allow to discard maps.
+    #[error(transparent)]
+    Axioms(#[from] AxiomsError),
     /// The model is none.
     #[error("the model makes no sense: {0}")]
     Model(#[from] ModelError),

@@ -6,9 +6,9 @@ use std::time::Instant;
 use hssh_causal::Exploration;
 use hssh_topology::{Hypothesis, Observation, Preference, Removals};
 
-use crate::builder::{MapperBuilder, Objective};
+use crate::builder::{MapperBuilder, MapperError, Objective};
 use crate::context::Context;
-use crate::crew::{Crew, ThreadsError};
+use crate::crew::Crew;
 use crate::depth_first::{Visitor, depth_first};
 use crate::experience::Experience;
 use crate::fringe::Fringe;
@@ -35,8 +35,9 @@ impl MapperBuilder {
     /// limit on nodes.
     ///
     /// # Errors
-    /// If the operating system gives no threads.
-    pub fn count(self, exploration: &Exploration) -> Result<Report, ThreadsError> {
+    /// If the operating system gives no threads, or the axioms do not allow to discard maps.
+    pub fn count(self, exploration: &Exploration) -> Result<Report, MapperError> {
+        self.axioms.check()?;
         let experience = &Experience::from(exploration);
         let crew = Crew::new(self.threads)?;
         let watch = Watch::start(self.limits, &self.monitor);

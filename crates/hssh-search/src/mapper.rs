@@ -46,7 +46,7 @@ impl MapperBuilder {
     /// A mapper that has seen its first star, and knows no bearings of its ends.
     ///
     /// # Errors
-    /// If the operating system gives no threads, or the model makes no sense.
+    /// If the operating system gives no threads, or the axioms or the model make no sense.
     pub fn start(self, star: &Star) -> Result<Mapper, MapperError> {
         Mapper::new(self, Experience::new(star, &[]))
     }
@@ -54,7 +54,7 @@ impl MapperBuilder {
     /// A mapper that has seen its first star, with the bearings of its ends where they were measured, rad.
     ///
     /// # Errors
-    /// If the operating system gives no threads, or the model makes no sense.
+    /// If the operating system gives no threads, or the axioms or the model make no sense.
     ///
     /// # Panics
     /// If there are bearings, but not one for each end.
@@ -66,7 +66,7 @@ impl MapperBuilder {
     /// A mapper that has been through a whole exploration, and has searched its tree.
     ///
     /// # Errors
-    /// If the operating system gives no threads, if the model makes no sense or asks for measurements that are not there, or
+    /// If the operating system gives no threads, if the axioms or the model make no sense or it asks for measurements that are not there, or
     /// if there is no map and some layout cannot be computed.
     pub fn explain(self, exploration: &Exploration) -> Result<Mapper, MapperError> {
         let mut mapper = Mapper::new(self, Experience::from(exploration))?;
@@ -136,6 +136,7 @@ impl Mapper {
 
     /// A mapper that has not searched yet.
     pub(crate) fn new(options: MapperBuilder, experience: Experience) -> Result<Self, MapperError> {
+        options.axioms.check()?;
         if let Objective::Posterior(model) = options.objective {
             model.check()?;
         }

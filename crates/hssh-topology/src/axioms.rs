@@ -20,8 +20,8 @@ pub struct Axioms {
     pub max_places: Option<u32>,
     /// Genus at most that: `Some(0)` is planarity, more is relaxed planarity (end of section 3.2).
     pub max_genus: Option<u32>,
-    /// "Qualitatively perpendicular": no two paths share two places, no three form a triangle. It is
-    /// meant for maps without self-intersection: with it, two paths that share two places may become one.
+    /// "Qualitatively perpendicular": no two paths share two places, no three form a triangle. Only together with
+    /// `no_self_intersection` can a search decide it on the way ([`Axioms::check`]).
     pub perpendicular: bool,
     /// No place is both right and left of a path, and none on a path is beside it.
     pub consistent_boundaries: bool,
@@ -42,6 +42,31 @@ impl Axioms {
 impl Default for Axioms {
     fn default() -> Self {
         Axioms::PUBLISHED
+    }
+}
+
+/// Axioms by which a search may not discard what violates them: it might grow into a map that does not.
+#[derive(Clone, Copy, PartialEq, Eq, Debug, thiserror::Error)]
+#[error(
+    "maps cannot be held to be perpendicular while their paths may meet a place twice: two paths that share two places \
+     may turn out to be one path, which crosses itself. Forbid self-intersections too, or leave out perpendicularity"
+)]
+pub struct AxiomsError;
+
+impl Axioms {
+    /// Whether a map that violates the axioms does so however it grows, so that a search may discard it.
+    ///
+    /// # Errors
+    /// If perpendicularity is asked for and self-intersection is allowed: all other violations stay.
+    ///
+    /// ```
+    /// use hssh_topology::Axioms;
+    ///
+    /// assert!(Axioms { perpendicular: true, ..Axioms::default() }.check().is_ok());
+    /// assert!(Axioms { perpendicular: true, no_self_intersection: false, ..Axioms::default() }.check().is_err());
+    /// ```
+    pub fn check(&self) -> Result<(), AxiomsError> {
+        if self.perpendicular && !self.no_self_intersection { Err(AxiomsError) } else { Ok(()) }
     }
 }
 

@@ -19,7 +19,7 @@ mod sanity;
 mod simplicity;
 mod star;
 
-pub use axioms::{Axiom, Axioms, Removals};
+pub use axioms::{Axiom, Axioms, AxiomsError, Removals};
 pub use catalog::StarCatalog;
 pub use embedding::{EmbeddedGraph, EmbeddingError, Faces, Link, PendingEdge};
 pub use hypothesis::{

@@ -168,8 +168,14 @@ fn check_exploration(mut statement: Statement<'_>, exploration: &Exploration) ->
 }
 
 fn read_axioms(statement: &Statement<'_>) -> Result<Axioms, Refusal> {
-    serde_json::from_str(statement.remainder())
-        .map_err(|error| statement.refuse(format!("expected the axioms as JSON: {error}")))
+    let axioms: Axioms = serde_json::from_str(statement.remainder())
+        .map_err(|error| statement.refuse(format!("expected the axioms as JSON: {error}")))?;
+    if axioms.perpendicular && !axioms.no_self_intersection {
+        // Two paths that share two places may become one, so that what violates this axiom may lead to what does not.
+        let reason = "no branch can be closed for not being perpendicular while paths may meet a place twice";
+        return Err(statement.refuse(reason));
+    }
+    Ok(axioms)
 }
 
 fn read_objective(lines: &mut Lines<'_>, route: &Route) -> Result<Objective, Refusal> {

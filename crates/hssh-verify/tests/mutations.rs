@@ -202,6 +202,9 @@ fn a_tree_of_other_axioms_or_another_goal() {
     ] {
         assert!(verify(&with(axioms), &exploration).is_err(), "{axioms:?}");
     }
+    let undecidable = Axioms { perpendicular: true, no_self_intersection: false, ..own };
+    let refusal = verify(&with(undecidable), &exploration).unwrap_err();
+    assert!(refusal.reason.contains("no branch can be closed for not being perpendicular"), "{refusal}");
     let (closed, _) = text.set("goal", 0, "goal closed");
     let refusal = verify(&closed.write(), &exploration).unwrap_err();
     assert!(refusal.reason.contains("only closed maps count"), "{refusal}");

@@ -4,11 +4,11 @@ use hssh_causal::schema::Action;
 
 /// A distinctive state of one hypothesis, numbered in the order of creation.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
-pub(super) struct StateId(pub(super) u32);
+pub(crate) struct StateId(u32);
 
 /// A place of one hypothesis, numbered in the order of creation.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
-pub(super) struct PlaceId(pub(super) u32);
+pub(crate) struct PlaceId(u32);
 
 /// What the robot sees in a distinctive state, and whether it can leave that way.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -59,7 +59,6 @@ impl Hypothesis {
     }
 
     /// Where the robot is: its distinctive state, and that one's place.
-    #[cfg(test)]
     pub(super) fn here(&self) -> (StateId, PlaceId) {
         (self.here, self.at(self.here).place)
     }

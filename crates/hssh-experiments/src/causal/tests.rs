@@ -5,42 +5,28 @@ use hssh_causal::schema::{Sight, Trace, Turning};
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 
-use super::hypothesis::{Glance, Hypothesis};
+use super::histories::explaining;
+use super::hypothesis::Glance;
 use super::oracle::explanations;
 
 const TURN: Action = Action::Turn { clockwise: 1 };
 
 /// All hypotheses that explain actions and glances, each as the states and the places of all moments.
 fn enumerated(glances: &[Glance], actions: &[Action]) -> Vec<(Vec<usize>, Vec<usize>)> {
-    let root = Hypothesis::root(glances[0]);
-    let mut all = vec![(vec![root.here()], root)];
-    for (&action, &glance) in actions.iter().zip(&glances[1..]) {
-        let grown = all.iter().flat_map(|(past, hypothesis)| {
-            let children = hypothesis.step(action, glance).into_iter();
-            children.map(|child| ([past.clone(), vec![child.here()]].concat(), child)).collect::<Vec<_>>()
-        });
-        all = grown.collect();
-    }
-    let numbers = |past: &Vec<_>| -> (Vec<usize>, Vec<usize>) {
-        past.iter()
-            .map(|&(state, place): &(super::hypothesis::StateId, super::hypothesis::PlaceId)| {
-                (state.0 as usize, place.0 as usize)
-            })
-            .unzip()
-    };
-    let mut all: Vec<_> = all
-        .iter()
-        .map(|(past, _)| numbers(past))
-        .map(|(states, places)| (states, in_order(&places)))
-        .collect();
+    let all = explaining(glances, actions, usize::MAX).unwrap();
+    let partitions = all.into_iter().map(|history| {
+        let (states, places): (Vec<_>, Vec<_>) = history.into_iter().unzip();
+        (in_order(&states), in_order(&places))
+    });
+    let mut all: Vec<_> = partitions.collect();
     all.sort();
     all
 }
 
 /// The same partition with its parts numbered in the order of first members.
-fn in_order(parts: &[usize]) -> Vec<usize> {
-    let mut seen: Vec<usize> = Vec::new();
-    let number = |&part: &usize| {
+fn in_order<T: Copy + PartialEq>(parts: &[T]) -> Vec<usize> {
+    let mut seen: Vec<T> = Vec::new();
+    let number = |&part: &T| {
         seen.iter().position(|&other| other == part).unwrap_or_else(|| {
             seen.push(part);
             seen.len() - 1

@@ -128,6 +128,7 @@ impl Reader {
     pub fn read(&self, exploration: &Exploration) -> Result<ReadAnswer, MapperError> {
         self.model.check()?;
         self.reading.check()?;
+        self.axioms.check()?;
         let started = Instant::now();
         let model = PosteriorModel { prior: MapPrior::Flat, ..self.model };
         let experience = Experience::from(exploration);

@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 
 use hssh_causal::Exploration;
 use hssh_oracle::{Axiom as NaiveAxiom, Enumeration, FinalMap, Path, enumerate};
-use hssh_search::{FinalCounts, Mapper, Report, StopReason};
+use hssh_search::{FinalCounts, Mapper, MapperError, Report, StopReason};
 use hssh_topology::{Axiom, Axioms, End, MapSketch, Olp, PlaceId};
 use proptest::prelude::*;
 
@@ -110,5 +110,16 @@ proptest! {
         prop_assert_eq!((counted.nodes, counted.maps, counted.refuted), (whole.nodes, whole.maps, whole.refuted));
         prop_assert_eq!((counted.expanded, counted.finals), (whole.expanded, whole.finals));
         prop_assert_eq!((counted.levels, counted.removals), (whole.levels, whole.removals));
+    }
+}
+
+/// Two paths that share two places may become one path, so that no search may discard a map for that.
+#[test]
+fn axioms_that_cannot_be_decided_on_the_way_are_refused() {
+    let exploration = hssh_world::strategies::random_exploration(3);
+    let axioms = Axioms { perpendicular: true, no_self_intersection: false, ..Axioms::default() };
+    let builder = Mapper::builder().axioms(axioms);
+    for refusal in [builder.clone().explain(&exploration).err(), builder.count(&exploration).err()] {
+        assert!(matches!(refusal, Some(MapperError::Axioms(_))), "{refusal:?}");
     }
 }

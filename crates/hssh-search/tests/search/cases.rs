@@ -26,7 +26,7 @@ pub(crate) fn planar() -> Axioms {
     Axioms { max_genus: Some(0), ..Axioms::default() }
 }
 
-/// Every axiom on or off, the usual ones mostly on.
+/// Every axiom on or off, the usual ones mostly on; perpendicular maps have no paths that meet a place twice.
 pub(crate) fn axioms() -> impl Strategy<Value = Axioms> {
     let places = prop_oneof![3 => Just(None), 1 => (1_u32..9).prop_map(Some)];
     let genus = prop_oneof![2 => Just(None), 1 => Just(Some(0)), 1 => (1_u32..3).prop_map(Some)];
@@ -38,7 +38,7 @@ pub(crate) fn axioms() -> impl Strategy<Value = Axioms> {
             no_circular_path,
             max_places,
             max_genus,
-            perpendicular,
+            perpendicular: perpendicular && no_self_intersection,
             consistent_boundaries: sides,
         },
     )
@@ -118,12 +118,6 @@ pub(crate) fn shortened(exploration: &Exploration, axioms: Axioms, nodes: u64) -
 pub(crate) fn case(nodes: u64) -> impl Strategy<Value = (Exploration, Axioms)> {
     (exploration(), axioms())
         .prop_map(move |(exploration, axioms)| (shortened(&exploration, axioms, nodes), axioms))
-}
-
-/// The axioms, but perpendicularity only where no path may meet a place twice. Otherwise two paths that
-/// share two places may become one path, and a map that a search has discarded would be perpendicular.
-pub(crate) fn permanent(axioms: Axioms) -> Axioms {
-    Axioms { perpendicular: axioms.perpendicular && axioms.no_self_intersection, ..axioms }
 }
 
 /// A route through a grid of places.

@@ -4,6 +4,7 @@ use hssh_causal::ExplorationError;
 use hssh_local::{LatticeError, LogError, SurveyError};
 use hssh_metrics::PriorError;
 use hssh_search::{MapperError, PlacementError, ThreadsError};
+use hssh_topology::AxiomsError;
 
 use crate::answer::DisagreementError;
 
@@ -20,6 +21,9 @@ pub enum PipelineError {
         /// What it must be.
         what: &'static str,
     },
+    /// Axioms that do not allow to discard maps.
+    #[error(transparent)]
+    Axioms(#[from] AxiomsError),
     /// A search that finds all maps was asked for closed ones only.
     #[error("only closed maps are asked for, but this search finds all maps, closed or not")]
     ClosedOfAll,

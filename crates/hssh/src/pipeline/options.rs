@@ -241,12 +241,13 @@ impl MappingOptions {
         Ok(reader.from_str(text)?)
     }
 
-    /// Refuses numbers that make no sense. Whatever is made with options checks them.
+    /// Refuses numbers that make no sense, and axioms that do not go together. Whatever is made with options checks them.
     ///
     /// # Errors
-    /// With the first such number.
+    /// With the first such number, or if it is the axioms.
     pub fn check(&self) -> Result<(), PipelineError> {
-        let MappingOptions { places, posterior, limits, .. } = self;
+        let MappingOptions { axioms, places, posterior, limits, .. } = self;
+        axioms.check()?;
         let numbers = [
             ("places.narrowest", places.narrowest, MayBe::Zero),
             ("places.shallowest", places.shallowest, MayBe::Zero),
@@ -297,6 +298,14 @@ mod tests {
             let error = MappingOptions::from_ron(text).unwrap().check().unwrap_err().to_string();
             assert!(error.starts_with(&format!("the option {name} is ")), "{error}");
         }
+    }
+
+    #[test]
+    fn perpendicular_maps_with_paths_that_cross_themselves_are_refused() {
+        let check = |text: &str| MappingOptions::from_ron(text).unwrap().check();
+        assert!(check("(axioms: (perpendicular: true))").is_ok());
+        let error = check("(axioms: (perpendicular: true, no_self_intersection: false))").unwrap_err();
+        assert!(error.to_string().contains("leave out perpendicularity"), "{error}");
     }
 
     fn names(value: &serde_json::Value) -> Vec<String> {
