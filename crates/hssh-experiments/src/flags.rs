@@ -106,6 +106,8 @@ xflags::xflags! {
             optional --seeds count: usize
             /// Seconds that one search may take; 20 if not given.
             optional --seconds seconds: f64
+            /// Write the first exploration with errors into this file instead of searching.
+            optional --out file: PathBuf
             /// Expansions after which the best map counts without a proof; 1000 if not given.
             optional --patience expansions: u64
             /// The file to draw the plot into.

@@ -23,6 +23,17 @@ pub(crate) fn run(flags: &flags::Readings) -> Result<(), Box<dyn Error>> {
         .into_iter()
         .filter(|ground| flags.name.as_ref().is_none_or(|name| ground.name.starts_with(name)))
         .collect();
+    if let Some(file) = &flags.out {
+        let ground = grounds.first().ok_or("no world has that name")?;
+        let told = ground.told(flags.rate.unwrap_or(0.1), 0)?;
+        std::fs::write(file, told.exploration.to_ron())?;
+        println!(
+            "wrote {}: {:?} errors (ends missed, ghosts, places passed, false visits, turns)",
+            file.display(),
+            told.errors
+        );
+        return Ok(());
+    }
     let mut rows = vec![header()];
     let (mut with, mut without) = (Vec::new(), Vec::new());
     for rate in RATES.into_iter().filter(|rate| flags.rate.is_none_or(|only| only == *rate)) {

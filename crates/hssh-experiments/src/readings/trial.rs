@@ -38,9 +38,13 @@ pub(super) struct Outcome {
 const MOST_BYTES: u64 = 2 << 30;
 
 impl Ground {
+    /// What a robot tells whose perception errs at that rate.
+    pub(super) fn told(&self, rate: f64, seed: u64) -> Result<Misperceived, Box<dyn Error>> {
+        Ok(self.world.misperceive(&self.route, &DriftModel::default(), ErrorRates::all(rate), seed)?)
+    }
+
     pub(super) fn try_with(&self, rate: f64, seed: u64, means: Means) -> Result<Outcome, Box<dyn Error>> {
-        let told =
-            self.world.misperceive(&self.route, &DriftModel::default(), ErrorRates::all(rate), seed)?;
+        let told = self.told(rate, seed)?;
         let exploration = &told.exploration;
         let model = PosteriorModel::evidence(exploration).ok_or("no distance was measured")?;
         let axioms = Axioms { max_genus: Some(0), ..Axioms::default() };

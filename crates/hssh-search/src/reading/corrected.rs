@@ -158,6 +158,7 @@ impl ReadMap {
 
     /// The travels from one reported place to the next: through those that were passed, and those found on the way later.
     fn go(&self, course: &mut Course, passage: &Passage, passed: &[[ChartEnd; 2]], entry: Olp) {
+        let before = course.travels.len();
         let last = passage.seen[entry.index()].expect("the entry is open");
         let mut exit = passage.exit;
         let stops = passed.iter().map(|&[enter, leave]| (enter, Some(leave))).chain([(last, None)]);
@@ -171,6 +172,9 @@ impl ReadMap {
             }
             self.visit(course, exit, enter, leave.is_some());
             exit = leave.unwrap_or(exit);
+        }
+        if let [only] = &mut course.travels[before..] {
+            only.odometry = passage.measured.or(only.odometry);
         }
     }
 

@@ -2,6 +2,7 @@
 
 use std::sync::Arc;
 
+use hssh_causal::Odometry;
 use hssh_metrics::{Pose, PoseGraph, PoseId, UncertainPose, UncertaintyError};
 use hssh_topology::{Account, ChartEnd, Observation, Olp, PlaceId, Reading, Sight, StarId, Way};
 
@@ -66,6 +67,8 @@ pub struct Passage {
     pub place: Option<PlaceId>,
     /// By end of the star seen there: the end of the place that it is.
     pub seen: Vec<Option<ChartEnd>>,
+    /// The frame of the place in that of the place before, as measured since the robot was there.
+    pub measured: Option<Odometry>,
 }
 
 /// An account with its layout.
@@ -153,15 +156,12 @@ impl State {
         let exit = self.account.exit(observation.exit);
         let account = self.account.follow(observation.exit, sight, way);
         let mut next = State { account, ..self.clone() };
-        let is_place = next.account.underway.is_none();
-        let step = Passage {
-            way: way.clone(),
-            exit,
-            place: is_place.then_some(next.account.place),
-            seen: if is_place { next.account.seen.clone() } else { Vec::new() },
+        let passage = |place, seen, measured| {
+            let step = Passage { way: way.clone(), exit, place, seen, measured };
+            Some(Arc::new(Trace { before: self.trace.clone(), step }))
         };
-        next.trace = Some(Arc::new(Trace { before: self.trace.clone(), step }));
-        if !is_place {
+        if next.account.underway.is_some() {
+            next.trace = passage(None, Vec::new(), None);
             return Ok(next);
         }
         let place = next.account.place;
@@ -173,14 +173,12 @@ impl State {
             _ => 0.0,
         };
         let pose = known.unwrap_or(PoseId(next.layout.poses.len() as u32));
+        let measured = travels.map(|travels| self.measured_since(travel, travels)).transpose()?;
+        let placed = measured.map(|measured| self.placed(&measured, pose, turn));
         if known.is_none() {
             next.places[place.index()] = Some(pose);
-            let step = travels.map_or(Ok(Pose::IDENTITY), |travels| {
-                let measured = self.measured_since(travel, travels)?;
-                Ok(self.placed(&measured, pose, 0.0).pose)
-            })?;
             let from = self.located(self.account.place).expect("the robot was reported there");
-            next.layout.poses.push(from.compose(step));
+            next.layout.poses.push(placed.map_or(Pose::IDENTITY, |placed| from.compose(placed.pose)));
         }
         for (olp, end) in next.account.seen.iter().enumerate() {
             let Some(end) = *end else { continue };
@@ -190,6 +188,7 @@ impl State {
         let from = (self.pose_of(self.account.place).expect("the robot was reported there"), self.turn);
         next.legs.push(Leg { travels: [self.since, travel as u32], from, to: (pose, turn) });
         (next.turn, next.since) = (turn, travel as u32 + 1);
+        next.trace = passage(Some(place), next.account.seen.clone(), placed.map(|placed| odometry(&placed)));
         Ok(next)
     }
 
@@ -229,6 +228,13 @@ impl State {
             self.layout.poses.len() * 24 + self.bearings.len() * 24 + self.legs.len() * size_of::<Leg>();
         (chart + own) as u64
     }
+}
+
+/// A travel between places as an exploration has it.
+fn odometry(placed: &PlacedTravel) -> Odometry {
+    let Pose { x, y, theta } = placed.pose;
+    let covariance = [0, 1, 2].map(|row| [0, 1, 2].map(|column| placed.covariance.matrix()[(row, column)]));
+    Odometry { x, y, theta, covariance }
 }
 
 fn turned(turn: f64) -> Pose {
