@@ -87,10 +87,11 @@ fn header() -> Vec<String> {
         "errors",
         "true",
         "proved",
+        "found after",
         "expanded",
         "seconds",
         "exact: true",
-        "exact: expanded",
+        "exact: found after",
     ];
     columns.map(str::to_owned).to_vec()
 }
@@ -104,10 +105,11 @@ fn row(name: &str, rate: f64, outcomes: &[Outcome]) -> Vec<String> {
         format!("{:.1}", mean(&|outcome| outcome.errors as f64)),
         percent(&|outcome| outcome.right),
         percent(&|outcome| outcome.proved),
+        format!("{:.0}", mean(&|outcome| outcome.found_after as f64)),
         format!("{:.0}", mean(&|outcome| outcome.expanded as f64)),
         format!("{:.2}", mean(&|outcome| outcome.seconds)),
         percent(&|outcome| outcome.exact_right),
-        format!("{:.0}", mean(&|outcome| outcome.exact_expanded as f64)),
+        format!("{:.0}", mean(&|outcome| outcome.exact_found_after as f64)),
     ]
 }
 

@@ -3,7 +3,7 @@
 use std::error::Error;
 use std::time::Duration;
 
-use hssh_search::{Limits, Mapper, Order, PosteriorModel, Proving, Reader};
+use hssh_search::{Limits, PosteriorModel, ReadAnswer, Reader};
 use hssh_topology::Axioms;
 use hssh_world::{DriftModel, ErrorRates, Misperceived, Route, World};
 
@@ -28,11 +28,12 @@ pub(super) struct Outcome {
     /// The best account puts all visits where they were.
     pub(super) right: bool,
     pub(super) proved: bool,
+    pub(super) found_after: u64,
     pub(super) expanded: u64,
     pub(super) seconds: f64,
     /// The same, every star and travel being certain.
     pub(super) exact_right: bool,
-    pub(super) exact_expanded: u64,
+    pub(super) exact_found_after: u64,
 }
 
 const MOST_BYTES: u64 = 2 << 30;
@@ -51,23 +52,20 @@ impl Ground {
         let time = Some(Duration::from_secs_f64(means.seconds));
         let limits = Limits { time, bytes: Some(MOST_BYTES), ..Limits::default() };
         let patience = Some(means.patience);
-        let read = Reader { axioms, limits, patience, ..Reader::new(model) }.read(exploration)?;
-
-        let proving = Proving { patience, ..Proving::default() };
-        let exact = Mapper::builder().posterior(model).axioms(axioms).order(Order::Cyclic);
-        let exact = exact.limits(limits).proving(proving).explain(exploration)?;
-        let (report, maps) = exact.answer(1);
-        let visits = maps.first().map(|map| exact.visits(map.node));
-        let visits =
-            visits.map(|visits| visits.into_iter().map(|visit| Some(visit.place)).collect::<Vec<_>>());
+        let reader = Reader { axioms, limits, patience, ..Reader::new(model) };
+        let read = reader.read(exploration)?;
+        let exact = reader.exact().read(exploration)?;
+        let right =
+            |answer: &ReadAnswer| answer.maps.first().is_some_and(|map| is_right(&map.visits(), &told));
         Ok(Outcome {
             errors: told.errors.iter().sum(),
-            right: read.maps.first().is_some_and(|map| is_right(&map.visits(), &told)),
+            right: right(&read),
             proved: read.proof.proved,
+            found_after: read.found_after,
             expanded: read.expanded,
             seconds: read.seconds,
-            exact_right: visits.is_some_and(|visits| is_right(&visits, &told)),
-            exact_expanded: report.expanded,
+            exact_right: right(&exact),
+            exact_found_after: exact.found_after,
         })
     }
 }

@@ -57,6 +57,8 @@ pub struct ReadAnswer {
     pub nodes: u64,
     /// How many were gone on from.
     pub expanded: u64,
+    /// The same when the best account was found.
+    pub found_after: u64,
     /// What is known about the answer.
     pub proof: Proof,
     /// Time spent searching.
@@ -147,6 +149,7 @@ impl Reader {
             stop,
             nodes: engine.tree.len() as u64,
             expanded: engine.tally.expanded,
+            found_after: engine.sweep.best_since,
             proof: proof(&engine),
             seconds: started.elapsed().as_secs_f64(),
         })
