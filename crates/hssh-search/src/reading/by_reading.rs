@@ -14,7 +14,7 @@ use crate::leaf::{Appraise, Grown, Growth, Leaf};
 use crate::measured::{Measured, MeasuredTravel};
 use crate::posterior::{Cost, Layout, Metrical, NEGLIGIBLE, Nats, PosteriorModel, Sameness, TIE, Tariff};
 use crate::reading::geometry::{Geometry, Measurement};
-use crate::reading::state::{Bearing, Sights, State, sight};
+use crate::reading::state::{Sights, State, sight};
 use crate::report::Score;
 use crate::tree::{Child, NodeId, Tree};
 use crate::visit::MeasurementError;
@@ -93,15 +93,14 @@ impl ByReading {
     /// What a way costs on top of its parent's cost, and what χ² it promises.
     fn pay(
         &self,
-        parent: &Burden,
+        leaf: &Leaf<Self>,
         before: &State,
         way: &Way,
-        travel: usize,
         geometry: Option<&Geometry<'_>>,
-        seen: &[Bearing],
         experience: &Experience,
     ) -> Result<(Cost, f64), SolveError> {
-        let mut cost = parent.cost;
+        let travel = leaf.depth();
+        let mut cost = leaf.load.cost;
         cost.perception += way.price;
         let chi2 = before.layout.chi2;
         let Some(geometry) = geometry else { return Ok((cost, chi2)) };
@@ -111,8 +110,8 @@ impl ByReading {
             cost.places += self.tariff.new_place(travel);
             return Ok((cost, chi2));
         };
-        let (_, sight) = sight(experience, travel);
-        let turn = before.turn_under(reading, sight, seen);
+        let (observation, sight) = sight(experience, travel);
+        let turn = before.turn_under(reading, sight, self.sights.of_star(observation.star));
         cost.perception += geometry.price_of_bearings(reading, turn);
         let strain = geometry.strain(pose, turn)?;
         cost.vagueness += if self.tariff.is_evidence() { strain.vagueness } else { 0.0 };
@@ -216,8 +215,7 @@ impl Appraise for ByReading {
         };
         let mut successors = Vec::with_capacity(ways.len());
         for (number, way) in ways.into_iter().enumerate() {
-            let (cost, promised) =
-                self.pay(&leaf.load, state, &way, travel, geometry.as_ref(), seen, context.experience)?;
+            let (cost, promised) = self.pay(leaf, state, &way, geometry.as_ref(), context.experience)?;
             let stage = Stage::Sketched(Arc::clone(state), Arc::new(way));
             let burden = Burden { cost, bound: Nats(0.0), promised, spelled: NOTHING, stage };
             // The tree keeps what tells siblings apart: here the number of the way.

@@ -93,7 +93,7 @@ fn the_true_map_is_found_in_spite_of_errors() {
 }
 
 /// What a hypothesis comes to, as the enumeration has it: its cost, where each visit was first reported, places, links, pending ends.
-type Finding = (f64, Vec<Option<usize>>, usize, usize, usize);
+type Finding<Cost = f64> = (Cost, Vec<Option<usize>>, usize, usize, usize);
 
 /// All accounts of an exploration, way by way.
 fn accounts(exploration: &Exploration, axioms: &Axioms, model: &ReadingModel) -> Vec<Finding> {
@@ -160,8 +160,8 @@ fn enumerated(exploration: &Exploration, axioms: &Axioms, model: &ReadingModel) 
         .collect()
 }
 
-/// Sorted, costs to the billionth of a nat.
-fn sorted(findings: Vec<Finding>) -> Vec<(i64, Vec<Option<usize>>, usize, usize, usize)> {
+/// Sorted, costs to the ten millionth of a nat.
+fn sorted(findings: Vec<Finding>) -> Vec<Finding<i64>> {
     let rounded = |(cost, visits, places, links, pending): Finding| {
         ((cost * 1e7).round() as i64, visits, places, links, pending)
     };
