@@ -58,8 +58,9 @@ impl Answer {
     /// What the search did.
     fn account(&self) -> String {
         let (input, search, certificate) = (&self.input, &self.search, &self.certificate);
+        let given = if self.readings.is_some() { "given what is taken for misread, " } else { "" };
         let mut text = format!(
-            "{}: {} ({} of {} travels explained)\n",
+            "{given}{}: {} ({} of {} travels explained)\n",
             search.name(),
             search.stop,
             input.explained,
