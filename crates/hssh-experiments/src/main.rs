@@ -18,6 +18,7 @@ mod robot;
 mod root;
 mod score;
 mod table;
+mod trials;
 
 use std::error::Error;
 use std::process::ExitCode;
@@ -50,6 +51,7 @@ fn run(command: ExperimentsCmd) -> Result<(), Box<dyn Error>> {
         ExperimentsCmd::Grids(flags) => grids::run(&flags),
         ExperimentsCmd::Log(flags) => log::run(&flags.data),
         ExperimentsCmd::Calibrate(flags) => calibrate::run(&flags),
+        ExperimentsCmd::Trials(flags) => trials::run(&flags),
         ExperimentsCmd::Robot(flags) => robot::run(&flags),
     }
 }
