@@ -92,8 +92,7 @@ fn twin_corridors(random: &mut ChaCha8Rng) -> (Vec<Space>, [Point; 6]) {
     let apart = random.random_range(3.5..10.0);
     let (detour, length) = (random.random_range(30.0..150.0), random.random_range(20.0..60.0));
     let far = apart + detour;
-    let way =
-        [[0.0, 0.0], [0.0, length], [far, length], [far, 0.0], [apart, 0.0], [apart, length - 2.0]];
+    let way = [[0.0, 0.0], [0.0, length], [far, length], [far, 0.0], [apart, 0.0], [apart, length - 2.0]];
     let mut spaces: Vec<Space> = way.windows(2).map(|pair| corridor(pair[0], pair[1], HALF)).collect();
     spaces.push(corridor([apart, 0.0], [apart, length], HALF));
     // Niches on the same side of both twins, at the same heights.
@@ -214,8 +213,22 @@ fn campus(random: &mut ChaCha8Rng) -> Ground {
     let street = |number: i32| f64::from(number) * pitch - lawn / 2.0;
     let at = |column: i32, row: i32| [street(column), street(row)];
     let way = vec![
-        at(0, 0), at(1, 0), at(2, 0), at(3, 0), at(3, 1), at(2, 1), at(1, 1), at(1, 2), at(2, 2), at(2, 1),
-        at(2, 0), at(1, 0), at(1, 1), at(0, 1), at(0, 0), at(1, 0),
+        at(0, 0),
+        at(1, 0),
+        at(2, 0),
+        at(3, 0),
+        at(3, 1),
+        at(2, 1),
+        at(1, 1),
+        at(1, 2),
+        at(2, 2),
+        at(2, 1),
+        at(2, 0),
+        at(1, 0),
+        at(1, 1),
+        at(0, 1),
+        at(0, 0),
+        at(1, 0),
     ];
     let span = 3.0 * pitch;
     let mut discs: Vec<Disc> = (0..60)
@@ -263,7 +276,8 @@ mod tests {
             for seed in 0..10 {
                 let ground = make(&mut ChaCha8Rng::seed_from_u64(seed));
                 for pose in crate::trials::motion::poses(&ground.way, 0.5) {
-                    let bearings: Vec<f64> = (0..36).map(|beam| f64::from(beam) * 10_f64.to_radians()).collect();
+                    let bearings: Vec<f64> =
+                        (0..36).map(|beam| f64::from(beam) * 10_f64.to_radians()).collect();
                     let ranges = ground.surroundings.ranges(pose, &bearings, 30.0, &[]);
                     assert!(ranges.iter().all(|&range| range > 0.6), "{name} {seed}: {pose:?} {ranges:?}");
                 }

@@ -60,8 +60,17 @@ pub(crate) fn run(flags: &flags::Trials) -> Result<(), Box<dyn Error>> {
     let tried: Vec<Tried> = trials.into_par_iter().map(Tried::new).collect();
     println!("of returns, contradicted, unconfirmed and true returns: wrong/all; off: root mean square, m");
     let header = [
-        "trial", "m", "raw, m", "closed, m", "returns", "contradicted", "unconfirmed", "true returns", "map",
-        "probability", "s",
+        "trial",
+        "m",
+        "raw, m",
+        "closed, m",
+        "returns",
+        "contradicted",
+        "unconfirmed",
+        "true returns",
+        "map",
+        "probability",
+        "s",
     ];
     let rows: Vec<Vec<String>> =
         std::iter::once(header.map(str::to_owned).to_vec()).chain(tried.iter().map(row)).collect();
@@ -91,7 +100,16 @@ fn row(tried: &Tried) -> Vec<String> {
 /// By kind: maps, right ones, and those that are wrong and said to be right.
 fn sums(tried: &[Tried]) -> Vec<Vec<String>> {
     let certain = format!("wrong above {CONFIDENT}");
-    let header = ["ground", "trials", "maps", "right", "mean stated", &certain, "wrong returns", "true returns missed"];
+    let header = [
+        "ground",
+        "trials",
+        "maps",
+        "right",
+        "mean stated",
+        &certain,
+        "wrong returns",
+        "true returns missed",
+    ];
     let mut rows = vec![header.map(str::to_owned).to_vec()];
     for kind in KINDS.iter().map(|kind| Some(kind.0)).chain([None]) {
         let of_kind: Vec<&Tried> =
@@ -100,7 +118,8 @@ fn sums(tried: &[Tried]) -> Vec<Vec<String>> {
         let stated = maps.iter().map(|map| map.stated).sum::<f64>() / maps.len().max(1) as f64;
         let sum = |which: usize| {
             let counts = of_kind.iter().map(|tried| tried.outcome.errors.kinds()[which]);
-            let (wrong, all) = counts.fold((0, 0), |(wrong, all), count| (wrong + count.wrong, all + count.all));
+            let (wrong, all) =
+                counts.fold((0, 0), |(wrong, all), count| (wrong + count.wrong, all + count.all));
             format!("{wrong}/{all}")
         };
         rows.push(vec![

@@ -61,9 +61,13 @@ impl Trial {
 
     pub(super) fn describe(&self) -> String {
         let Trial { number, step, reach, people, .. } = self;
-        let people = if people.is_finite() { format!("people every {people} m") } else { "nobody".to_owned() };
+        let people =
+            if people.is_finite() { format!("people every {people} m") } else { "nobody".to_owned() };
         let wheels = WHEELS[self.wheels].0;
-        format!("trial {number}: {}, a scan every {step} m, laser of {reach} m, {people}, {wheels} wheels", self.name())
+        format!(
+            "trial {number}: {}, a scan every {step} m, laser of {reach} m, {people}, {wheels} wheels",
+            self.name()
+        )
     }
 
     /// The log as CARMEN text: first the true pose of a scan, then what the wheels say.
@@ -149,7 +153,8 @@ mod tests {
         let truth: Vec<Pose> = (0..100).map(|x| Pose::new(f64::from(x) * 0.4, 0.0, 0.0)).collect();
         let trial = Trial { people: 5.0, ..Trial::new(0) };
         let people = trial.people_along(&truth, &mut ChaCha8Rng::seed_from_u64(1));
-        let ahead = |(pose, discs): (&Pose, &Vec<Disc>)| discs.iter().any(|disc| disc.middle[0] > pose.x + 1.0);
+        let ahead =
+            |(pose, discs): (&Pose, &Vec<Disc>)| discs.iter().any(|disc| disc.middle[0] > pose.x + 1.0);
         assert!(truth.iter().zip(&people).filter(|pair| ahead(*pair)).count() > 10);
     }
 }

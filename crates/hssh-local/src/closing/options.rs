@@ -15,11 +15,11 @@ pub struct ClosingOptions {
     pub reach: f64,
     /// Where the robot was less than so many metres of travel ago it is not back.
     pub least_travel: f64,
-    /// How far off the estimate a pass is looked for: metres, and metres more for each metre of way between.
+    /// How far off the estimate a pass is looked for: metres, and so many standard deviations of what the way between leaves.
     pub window: (f64, f64),
-    /// The same for the heading: radians, and radians more for each metre of way between.
+    /// The same for the heading: radians, and standard deviations.
     pub heading_window: (f64, f64),
-    /// However long the way between: metres, radians.
+    /// However little is known: metres, radians.
     pub largest_window: (f64, f64),
     /// The least mean likeness of a match, 1 being perfect.
     pub least_score: f64,
@@ -37,8 +37,17 @@ pub struct ClosingOptions {
     pub least_chain: usize,
     /// See `least_chain`.
     pub strong_score: f64,
+    /// Where the robot is known up to this standard deviation, in metres, there is no room for another corridor that looks
+    /// alike…
+    pub well_known: f64,
+    /// …and for each metre more, so many more matches have to tell the same…
+    pub chain_per_metre: f64,
+    /// …up to so many.
+    pub longest_chain: usize,
     /// However good a match is, a closure is not known better than this: metres and radians, standard deviations.
     pub floor: (f64, f64),
+    /// The same of a match of one keyframe.
+    pub fine_floor: (f64, f64),
 }
 
 impl Default for ClosingOptions {
@@ -50,8 +59,8 @@ impl Default for ClosingOptions {
             submap_distance: 2.5,
             reach: 10.0,
             least_travel: 15.0,
-            window: (0.6, 0.015),
-            heading_window: (0.06, 0.002),
+            window: (0.6, 1.5),
+            heading_window: (0.06, 1.5),
             largest_window: (12.0, 0.5),
             least_score: 0.4,
             least_agreement: 0.75,
@@ -60,7 +69,11 @@ impl Default for ClosingOptions {
             ambiguity: 0.85,
             least_chain: 3,
             strong_score: 0.6,
+            well_known: 1.75,
+            chain_per_metre: 2.5,
+            longest_chain: 16,
             floor: (0.04, 0.006),
+            fine_floor: (0.02, 0.004),
         }
     }
 }
