@@ -31,7 +31,9 @@ impl Tried {
             Ok(log) => Outcome::of(log),
             Err(error) => Outcome { problem: Some(error.to_string()), ..Outcome::default() },
         };
-        Tried { trial, outcome }
+        let tried = Tried { trial, outcome };
+        eprintln!("{}", row(&tried).join("  "));
+        tried
     }
 
     /// A wrong map that is said to be right.
@@ -50,7 +52,7 @@ pub(crate) fn run(flags: &flags::Trials) -> Result<(), Box<dyn Error>> {
         if let Some(out) = &flags.out {
             std::fs::write(out, trial.to_carmen()).map_err(|error| format!("{}: {error}", out.display()))?;
         }
-        println!("{}", row(&Tried::new(trial)).join("  "));
+        Tried::new(trial);
         return Ok(());
     }
     let trials: Vec<Trial> = (0..flags.trials.unwrap_or(TRIALS))

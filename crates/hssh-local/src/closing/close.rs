@@ -275,13 +275,13 @@ impl<'a> Closing<'a> {
         Ok(off.xy().norm().max(10.0 * off.z.abs()))
     }
 
-    /// The poses that a submap may have in the frame of an earlier one, so well known.
+    /// The poses that a submap may have in the frame of an earlier one.
     fn window(&self, here: Pose, reference: usize, known: Known) -> Window {
         let options = self.options;
         Window {
             center: self.pose(reference).between(here),
-            across: (options.window.0 + options.window.1 * known.across).min(options.largest_window.0),
-            around: (options.heading_window.0 + options.heading_window.1 * known.around)
+            across: (options.window.0 + options.window.1 * known.length).min(options.largest_window.0),
+            around: (options.heading_window.0 + options.heading_window.1 * known.length)
                 .min(options.largest_window.1),
         }
     }

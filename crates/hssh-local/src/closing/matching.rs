@@ -16,7 +16,7 @@ const ON_WALL: f64 = 0.2;
 /// …and faces the same way, up to 25°.
 const FACING: f64 = 0.9;
 /// A window so small leaves no room for another match: metres.
-const SMALL: f64 = 1.5;
+const SMALL: f64 = 1.2;
 
 /// How far from where the search found it a submap is aligned, standard deviations: metres and radians.
 const ALIGNED: (f64, f64) = (0.5, 0.1);

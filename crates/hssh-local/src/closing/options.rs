@@ -15,11 +15,11 @@ pub struct ClosingOptions {
     pub reach: f64,
     /// Where the robot was less than so many metres of travel ago it is not back.
     pub least_travel: f64,
-    /// How far off the estimate a pass is looked for: metres, and so many standard deviations of what the way between leaves.
+    /// How far off the estimate a pass is looked for: metres, and metres more for each metre of way between.
     pub window: (f64, f64),
-    /// The same for the heading: radians, and standard deviations.
+    /// The same for the heading: radians, and radians more for each metre of way between.
     pub heading_window: (f64, f64),
-    /// However little is known: metres, radians.
+    /// However long the way between: metres, radians.
     pub largest_window: (f64, f64),
     /// The least mean likeness of a match, 1 being perfect.
     pub least_score: f64,
@@ -59,8 +59,8 @@ impl Default for ClosingOptions {
             submap_distance: 2.5,
             reach: 10.0,
             least_travel: 15.0,
-            window: (0.6, 1.5),
-            heading_window: (0.06, 1.5),
+            window: (0.6, 0.015),
+            heading_window: (0.06, 0.002),
             largest_window: (12.0, 0.5),
             least_score: 0.4,
             least_agreement: 0.75,
@@ -69,8 +69,8 @@ impl Default for ClosingOptions {
             ambiguity: 0.85,
             least_chain: 3,
             strong_score: 0.6,
-            well_known: 1.75,
-            chain_per_metre: 2.5,
+            well_known: 2.5,
+            chain_per_metre: 4.0,
             longest_chain: 16,
             floor: (0.04, 0.006),
             fine_floor: (0.02, 0.004),

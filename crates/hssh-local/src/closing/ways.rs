@@ -23,20 +23,19 @@ pub(crate) struct Ways {
 /// What is known of a point from another one.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Known {
+    /// How long the way there is, in metres.
+    pub(crate) length: f64,
     /// Standard deviation of where it is, in the worst direction: metres.
     pub(crate) across: f64,
-    /// Standard deviation of its heading: radians.
-    pub(crate) around: f64,
 }
 
 impl Known {
     /// Nothing.
-    const NOT: Known = Known { across: f64::INFINITY, around: f64::INFINITY };
+    const NOT: Known = Known { length: f64::INFINITY, across: f64::INFINITY };
 
-    fn of(covariance: &Covariance) -> Self {
-        let matrix = covariance.matrix();
-        let worst = matrix.fixed_view::<2, 2>(0, 0).symmetric_eigenvalues().max();
-        Known { across: worst.max(0.0).sqrt(), around: matrix[(2, 2)].sqrt() }
+    fn of(length: f64, covariance: &Covariance) -> Self {
+        let worst = covariance.matrix().fixed_view::<2, 2>(0, 0).symmetric_eigenvalues().max();
+        Known { length, across: worst.max(0.0).sqrt() }
     }
 }
 
@@ -69,7 +68,7 @@ impl Ways {
         let mut lengths = vec![f64::INFINITY; self.steps.len()];
         let mut open = BinaryHeap::new();
         lengths[start] = 0.0;
-        known[start] = Known { across: 0.0, around: 0.0 };
+        known[start] = Known { length: 0.0, across: 0.0 };
         open.push((Reverse(0_u64), start));
         while let Some((Reverse(micrometres), point)) = open.pop() {
             if micrometres as f64 / 1e6 > lengths[point] + 1e-5 {
@@ -91,7 +90,7 @@ impl Ways {
                     (false, None) => None,
                 };
                 lengths[step.to] = length;
-                known[step.to] = whole.map_or(Known::NOT, |whole| Known::of(&whole.covariance));
+                known[step.to] = whole.map_or(Known::NOT, |whole| Known::of(length, &whole.covariance));
                 reached[step.to] = whole;
                 open.push((Reverse((length * 1e6) as u64), step.to));
             }
@@ -119,7 +118,7 @@ mod tests {
         let known = ways.from(0, pose);
         let aside = (0..10).map(|k| (0.01 * f64::from(k)).powi(2)).sum::<f64>().sqrt();
         assert!((known[10].across - aside).abs() < 1e-4, "{known:?}");
-        assert!((known[10].around - 0.01 * 10_f64.sqrt()).abs() < 1e-6);
+        assert!((known[10].length - 10.0).abs() < 1e-9);
         assert!(known[11].across.is_infinite(), "no way leads there");
         let link = UncertainPose { mean: pose(10), covariance: sigmas(0.02, 0.001) };
         ways.add([0, 10], 1.0, link).unwrap();

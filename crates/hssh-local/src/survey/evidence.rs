@@ -18,7 +18,7 @@ const LEAST_TRAVEL: f64 = 15.0;
 /// A closure that counts less than this in the end is contradicted.
 pub(super) const BELIEVED: f64 = 0.5;
 /// Where the robot is known up to this standard deviation, in metres, it is where it seems to be.
-const WELL_KNOWN: f64 = 1.75;
+const WELL_KNOWN: f64 = 2.5;
 /// Metres of travel between the scans that are asked whether the robot is back.
 const STEP: f64 = 1.0;
 
@@ -200,7 +200,9 @@ mod tests {
                 let part = step as f64 / steps;
                 let pose = Pose::new(at(part, 0), at(part, 1), 0.0);
                 let travelled = 0.5 * (scans.len() as f64 + 1.0);
-                scans.push(TrackedScan { pose, step: None, travelled });
+                let mean = scans.last().map_or(Pose::IDENTITY, |last| last.pose.between(pose));
+                let covariance = Covariance::from_standard_deviations(0.01, 0.01, 0.001).unwrap();
+                scans.push(TrackedScan { pose, step: Some(UncertainPose { mean, covariance }), travelled });
             }
         }
         Track { scans, lost: Vec::new() }
