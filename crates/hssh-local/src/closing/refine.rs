@@ -14,8 +14,8 @@ const BESIDE: usize = 3;
 const NEAR: f64 = 3.0;
 /// A pass is where it seems to be if a closure says so no farther away than this on both passes: metres of travel.
 const CONFIRMING: f64 = 8.0;
-/// A match that moves the keyframe by more is another one: metres.
-const MOVED: f64 = 0.25;
+/// A match that moves the keyframe by more is another one: metres, and as many radians.
+const MOVED: f64 = 0.12;
 
 /// A keyframe seen from one of another pass.
 pub(super) struct Refined {
