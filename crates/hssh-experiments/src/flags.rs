@@ -113,6 +113,18 @@ xflags::xflags! {
             /// The file to draw the plot into.
             optional --svg file: PathBuf
         }
+        /// Surveys and maps logs of grounds that are hard to map, with exact truth: long rings all alike, halls, lawns, people,
+        /// wheels that slip.
+        cmd trials {
+            /// How many; 72 if not given.
+            optional --trials count: usize
+            /// Only those of this kind of ground.
+            optional --kind name: String
+            /// Only this one, counted from 0.
+            optional --trial number: usize
+            /// With --trial: the file to write its log into.
+            optional --out file: PathBuf
+        }
         /// Drives a simulated robot through seven built floors and a real one: control level, survey and map against
         /// the truth.
         cmd robot {

@@ -20,6 +20,7 @@ mod root;
 mod score;
 mod table;
 mod theory;
+mod trials;
 
 use std::error::Error;
 use std::process::ExitCode;
@@ -53,6 +54,7 @@ fn run(command: ExperimentsCmd) -> Result<(), Box<dyn Error>> {
         ExperimentsCmd::Log(flags) => log::run(&flags.data),
         ExperimentsCmd::Calibrate(flags) => calibrate::run(&flags),
         ExperimentsCmd::Readings(flags) => readings::run(&flags),
+        ExperimentsCmd::Trials(flags) => trials::run(&flags),
         ExperimentsCmd::Robot(flags) => robot::run(&flags),
         ExperimentsCmd::Theory(flags) => theory::run(&flags),
     }

@@ -1,38 +1,48 @@
 //! From a log to what is right and wrong of its survey and its best map.
 
+use std::time::Instant;
+
 use hssh::pipeline::{Input, MappingOptions, SurveyedLog, map};
 use hssh_local::LaserLog;
 use hssh_metrics::Pose;
 
 use super::judge::{Errors, Verdict};
-use crate::score::stated;
+use crate::score::{root_mean_square, stated};
 
 /// Seconds that a search may take.
 const SECONDS: f64 = 10.0;
 
 /// What became of a log.
 #[derive(Clone, Debug, Default)]
-pub(super) struct Outcome {
-    pub(super) errors: Errors,
-    pub(super) visits: usize,
-    pub(super) map: Option<JudgedMap>,
+pub(crate) struct Outcome {
+    pub(crate) errors: Errors,
+    pub(crate) visits: usize,
+    /// Metres of way.
+    pub(crate) metres: f64,
+    /// Of raw odometry and of the closed track: root mean square of the distance from the truth, in metres.
+    pub(crate) off: [f64; 2],
+    /// Seconds from the scans to the map.
+    pub(crate) seconds: f64,
+    pub(crate) map: Option<JudgedMap>,
     /// Why there is no survey or no map.
-    pub(super) problem: Option<String>,
+    pub(crate) problem: Option<String>,
 }
 
 /// The best map.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct JudgedMap {
-    pub(super) places: usize,
+pub(crate) struct JudgedMap {
+    pub(crate) places: usize,
     /// How probable it is said to be.
-    pub(super) stated: f64,
-    pub(super) verdict: Verdict,
+    pub(crate) stated: f64,
+    pub(crate) verdict: Verdict,
 }
 
 impl Outcome {
     /// Surveys and maps a log; its corrected poses are the truth.
-    pub(super) fn of(log: LaserLog) -> Self {
+    pub(crate) fn of(log: LaserLog) -> Self {
         let truth: Vec<Pose> = log.scans.iter().map(|scan| scan.corrected).collect();
+        let raw: Vec<Pose> = log.scans.iter().map(|scan| scan.odometry).collect();
+        let started = Instant::now();
         let mut options = MappingOptions::default();
         options.search.threads = 1;
         options.limits.seconds = Some(SECONDS);
@@ -43,8 +53,14 @@ impl Outcome {
         };
         let Some(surveyed) = input.as_surveyed() else { return Outcome::default() };
         let survey = &surveyed.survey;
-        let surveyed =
-            Outcome { errors: Errors::of(survey, &truth), visits: survey.visits.len(), ..Outcome::default() };
+        let closed: Vec<Pose> = survey.track.scans.iter().map(|scan| scan.pose).collect();
+        let surveyed = Outcome {
+            errors: Errors::of(survey, &truth),
+            visits: survey.visits.len(),
+            metres: survey.track.scans.last().map_or(0.0, |scan| scan.travelled),
+            off: [&raw, &closed].map(|poses| root_mean_square(poses, &truth)),
+            ..Outcome::default()
+        };
         let answer = match map(&input, &options, &Default::default()) {
             Ok(mapped) => mapped.answer,
             Err(error) => return Outcome { problem: Some(error.to_string()), ..surveyed },
@@ -56,6 +72,6 @@ impl Outcome {
             verdict: Verdict::of_map(best, survey, &truth),
         });
         let problem = Some(answer.verdict.sentence).filter(|_| map.is_none());
-        Outcome { map, problem, ..surveyed }
+        Outcome { map, problem, seconds: started.elapsed().as_secs_f64(), ..surveyed }
     }
 }

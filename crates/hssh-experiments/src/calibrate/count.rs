@@ -4,25 +4,25 @@ use std::ops::AddAssign;
 
 /// How many of something there were, and how many of them were wrong.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
-pub(super) struct Count {
-    pub(super) all: u64,
-    pub(super) wrong: u64,
+pub(crate) struct Count {
+    pub(crate) all: u64,
+    pub(crate) wrong: u64,
 }
 
 impl Count {
     /// Counts one.
-    pub(super) fn add(&mut self, is_wrong: bool) {
+    pub(crate) fn add(&mut self, is_wrong: bool) {
         self.all += 1;
         self.wrong += u64::from(is_wrong);
     }
 
     /// The probability that the next one is wrong, if nothing was known before: (wrong + 1) / (all + 2).
-    pub(super) fn rate(self) -> f64 {
+    pub(crate) fn rate(self) -> f64 {
         (self.wrong + 1) as f64 / (self.all + 2) as f64
     }
 
     /// In which interval that probability lies with a probability of 95%, one fortieth on each side of it.
-    pub(super) fn interval(self) -> [f64; 2] {
+    pub(crate) fn interval(self) -> [f64; 2] {
         [0.025, 0.975].map(|part| self.quantile(part))
     }
 

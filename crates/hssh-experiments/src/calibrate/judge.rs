@@ -22,24 +22,24 @@ const STEP: f64 = 1.0;
 
 /// What a survey rests on, and what of it is wrong.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
-pub(super) struct Errors {
+pub(crate) struct Errors {
     /// Returns that the laser shows; wrong if the closed track is off at one of their closures, which alone may not know
     /// how far along a corridor the robot is.
-    pub(super) returns: Count,
+    pub(crate) returns: Count,
     /// Contradicted ones; wrong if the closed track is off there.
-    pub(super) contradicted: Count,
+    pub(crate) contradicted: Count,
     /// Unconfirmed ones; wrong if the closed track is off there.
-    pub(super) unconfirmed: Count,
+    pub(crate) unconfirmed: Count,
     /// True returns; wrong if the closed track is off there. No probability of the model is about these.
-    pub(super) true_returns: Count,
+    pub(crate) true_returns: Count,
 }
 
 /// The kinds of errors by name, with the probability that the model has for them.
-pub(super) const KINDS: [&str; 4] = ["return", "contradicted", "unconfirmed", "true return"];
+pub(crate) const KINDS: [&str; 4] = ["return", "contradicted", "unconfirmed", "true return"];
 
 impl Errors {
     /// Counts what a survey rests on.
-    pub(super) fn of(survey: &Survey, truth: &[Pose]) -> Self {
+    pub(crate) fn of(survey: &Survey, truth: &[Pose]) -> Self {
         let mut errors = Errors::default();
         let is_lost = |earlier: usize, later: usize| {
             let believed = survey.track.scans[earlier].pose.between(survey.track.scans[later].pose);
@@ -68,7 +68,7 @@ impl Errors {
     }
 
     /// In the order of [`KINDS`].
-    pub(super) fn kinds(&self) -> [Count; 4] {
+    pub(crate) fn kinds(&self) -> [Count; 4] {
         [self.returns, self.contradicted, self.unconfirmed, self.true_returns]
     }
 }
@@ -110,18 +110,18 @@ fn true_returns(track: &Track, truth: &[Pose]) -> Vec<(usize, usize)> {
 
 /// What is wrong with a map: pairs of visits.
 #[derive(Clone, Copy, PartialEq, Debug, Default)]
-pub(super) struct Verdict {
+pub(crate) struct Verdict {
     /// With one place in the map, and truly to two.
-    pub(super) merged: usize,
+    pub(crate) merged: usize,
     /// How far apart those truly are at most, in metres.
-    pub(super) farthest: f64,
+    pub(crate) farthest: f64,
     /// With two places in the map, and truly to one.
-    pub(super) split: usize,
+    pub(crate) split: usize,
 }
 
 impl Verdict {
     /// Judges where visits truly were, each with its place in the map.
-    pub(super) fn of(visits: &[(Pose, u32)]) -> Self {
+    pub(crate) fn of(visits: &[(Pose, u32)]) -> Self {
         let mut verdict = Verdict::default();
         for (index, (pose, place)) in visits.iter().enumerate() {
             for (other, other_place) in &visits[..index] {
@@ -138,7 +138,7 @@ impl Verdict {
 
     /// Judges a map. A visit was where its center is, seen from the scan nearest to it, if that scan was where it truly
     /// was.
-    pub(super) fn of_map(map: &AnsweredMap, survey: &Survey, truth: &[Pose]) -> Self {
+    pub(crate) fn of_map(map: &AnsweredMap, survey: &Survey, truth: &[Pose]) -> Self {
         let visits = map.visits.iter().zip(&survey.visits).map(|(told, visit)| {
             let robot = survey.track.scans[visit.reference].pose;
             (truth[visit.reference].compose(robot.between(visit.frame)), told.place)
@@ -147,7 +147,7 @@ impl Verdict {
     }
 
     /// Whether nothing is wrong.
-    pub(super) fn is_right(self) -> bool {
+    pub(crate) fn is_right(self) -> bool {
         self.merged + self.split == 0
     }
 }

@@ -19,14 +19,14 @@ use hssh_local::LaserLog;
 use rayon::prelude::*;
 
 use crate::{flags, log};
-use chain::Outcome;
+pub(crate) use chain::Outcome;
 use drives::{Driven, Task};
 use variant::Variant;
 
 /// Drives if no number is given.
 const DRIVES: usize = 500;
 /// A wrong map with a greater probability is told one by one.
-const CONFIDENT: f64 = 0.9;
+pub(crate) const CONFIDENT: f64 = 0.9;
 
 /// A real log, changed or not.
 struct RealRun {

@@ -4,7 +4,7 @@ use hssh_local::{LaserLog, Track};
 use hssh_metrics::Pose;
 
 /// Over these stretches of travel, in metres, errors are measured.
-const STRETCHES: [f64; 3] = [1.0, 5.0, 20.0];
+const STRETCHES: [f64; 4] = [1.0, 5.0, 20.0, 80.0];
 
 /// The errors over stretches of one length.
 pub(super) struct Drift {
@@ -18,7 +18,7 @@ pub(super) struct Drift {
 }
 
 /// The errors over stretches of each length.
-pub(super) fn rows(name: &'static str, log: &LaserLog, track: &Track) -> [Drift; 3] {
+pub(super) fn rows(name: &'static str, log: &LaserLog, track: &Track) -> [Drift; 4] {
     STRETCHES.map(|stretch| row(name, log, track, stretch))
 }
 

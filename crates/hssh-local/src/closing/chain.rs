@@ -27,3 +27,42 @@ pub(super) fn agree(one: &Match, other: &Match, travel: f64, pose: impl Fn(usize
     let turned = wrap_angle(found.theta - expected.theta);
     apart.norm() < CONSISTENT.0 + CONSISTENT.1 * travel.abs() && turned.abs() < CONSISTENT.2
 }
+
+/// So many submaps back a match may have the one before it in its chain.
+const MEMORY: usize = 4;
+
+/// A match, and what precedes it in its chain.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Linked {
+    pub(super) found: Match,
+    /// The match before: its query, and which of its matches.
+    before: Option<(usize, usize)>,
+    /// How many matches the chain up to here has.
+    length: usize,
+}
+
+/// A match at the end of the longest chain that it continues; `tentative` has the matches of earlier queries.
+pub(super) fn linked(
+    found: Match,
+    tentative: &[Vec<Linked>],
+    travelled: impl Fn(usize) -> f64,
+    pose: impl Fn(usize) -> Pose,
+) -> Linked {
+    let mut before: Option<(usize, usize)> = None;
+    let mut longest = 0;
+    for query in found.query.saturating_sub(MEMORY)..found.query {
+        let travel = travelled(found.query) - travelled(query);
+        for (index, other) in tentative[query].iter().enumerate() {
+            if other.length > longest && agree(&other.found, &found, travel, &pose) {
+                (before, longest) = (Some((query, index)), other.length);
+            }
+        }
+    }
+    Linked { found, before, length: longest + 1 }
+}
+
+/// The matches of a chain, the last one first.
+pub(super) fn chain(last: &Linked, tentative: &[Vec<Linked>]) -> Vec<Match> {
+    let before = |one: &&Linked| one.before.and_then(|(query, index)| tentative[query].get(index));
+    std::iter::successors(Some(last), before).map(|one| one.found).collect()
+}

@@ -2,29 +2,32 @@
 //! believed to be, accept chains of matches, and solve the pose graph anew where they move it.
 
 use hssh_metrics::{
-    Covariance, Edge, GraphError, Kernel, Options, Pose, PoseGraph, PoseId, SolveError, solve, solve_robustly,
+    Covariance, Edge, GraphError, Kernel, Options, Pose, PoseGraph, PoseId, RobustSolution, SolveError,
+    UncertainPose, UncertaintyError, solve, solve_robustly,
 };
 
-use super::chain::{agree, told};
+use super::chain::{Linked, chain, linked, told};
 use super::keyframe::{Keyframe, keyframes};
 use super::matching::{Match, find};
 use super::options::ClosingOptions;
+use super::refine::refine;
 use super::search::Window;
 use super::submap::{Submap, middles};
+use super::ways::{Known, Ways};
 use crate::carmen::LaserLog;
 use crate::grid::LatticeError;
 use crate::matching::Track;
 
 /// How often the log is gone through: what was not found where it was believed to be may be found later.
 const SWEEPS: usize = 2;
-/// So many submaps back a match may have its chain.
-const CHAIN_MEMORY: usize = 4;
 /// Of one submap at most so many others are looked into.
 const MOST_CANDIDATES: usize = 8;
 /// A closure costs a way so long when it is asked how well two poses are known to one another: metres.
 const CLOSURE_LENGTH: f64 = 1.0;
 /// Moved farther than this, in metres, the graph is solved anew.
 const MOVED: f64 = 0.1;
+/// A closure that counts less than this is contradicted: what is near it is not matched.
+const BELIEVED: f64 = 0.5;
 /// A closure that fits worse, in standard deviations, begins to count less.
 const KERNEL: f64 = 3.0;
 
@@ -42,6 +45,9 @@ pub struct Closure {
     pub covariance: Covariance,
     /// Of the walls of each that the other has seen, the part that is where the other has them.
     pub agreement: f64,
+    /// How well the later pose was known from the earlier one before any closure here: standard deviation in metres. Where
+    /// it is large, what only looks alike may be taken for the same.
+    pub spread: f64,
     /// By which factor it counts in the end: near 0 if the rest contradicts it.
     pub weight: f64,
 }
@@ -64,6 +70,9 @@ pub enum ClosingError {
     /// A motion that is no edge.
     #[error("the track is no pose graph: {0}")]
     Graph(#[from] GraphError),
+    /// A motion that is too uncertain.
+    #[error("the track is too uncertain: {0}")]
+    Uncertain(#[from] UncertaintyError),
     /// No least squares.
     #[error("the pose graph of the scans cannot be solved: {0}")]
     Solve(#[from] SolveError),
@@ -90,6 +99,15 @@ pub fn close_loops(
     closing.finish(track)
 }
 
+/// An earlier submap that one may lie on.
+struct Candidate {
+    /// How far off it is believed to be, in metres.
+    off: f64,
+    reference: usize,
+    window: Window,
+    known: Known,
+}
+
 struct Closing<'a> {
     options: &'a ClosingOptions,
     keyframes: Vec<Keyframe>,
@@ -97,8 +115,10 @@ struct Closing<'a> {
     graph: PoseGraph,
     /// How many edges are the track's.
     tracked: usize,
+    /// The track and what closes it, from submap to submap.
+    ways: Ways,
     /// By query.
-    tentative: Vec<Vec<Match>>,
+    tentative: Vec<Vec<Linked>>,
     accepted: Vec<Match>,
 }
 
@@ -125,8 +145,17 @@ impl<'a> Closing<'a> {
         }
         graph.anchor(PoseId(0))?;
         let tracked = graph.edges().len();
+        let mut ways = Ways::new(submaps.len());
+        for later in 1..submaps.len() {
+            let ends = [later - 1, later];
+            let [from, to] = ends.map(|submap| keyframes[submaps[submap].middle].scan);
+            let length = submaps[later].travelled - submaps[later - 1].travelled;
+            if let Ok(Some(motion)) = track.motion(from, to) {
+                ways.add(ends, length, motion)?;
+            }
+        }
         let tentative = vec![Vec::new(); submaps.len()];
-        Ok(Closing { options, keyframes, submaps, graph, tracked, tentative, accepted: Vec::new() })
+        Ok(Closing { options, keyframes, submaps, graph, tracked, ways, tentative, accepted: Vec::new() })
     }
 
     /// Where the middle of a submap is believed to be.
@@ -138,7 +167,7 @@ impl<'a> Closing<'a> {
     fn close(&mut self, query: usize) -> Result<(), ClosingError> {
         let mut tried: Vec<usize> = Vec::new();
         let mut found: Vec<Match> = Vec::new();
-        for (_, reference, window) in self.candidates(query) {
+        for Candidate { reference, window, known, .. } in self.candidates(query) {
             let is_like = |&other: &usize| {
                 let travel = self.submaps[other].travelled - self.submaps[reference].travelled;
                 travel.abs() < 1.5 * self.options.stretch
@@ -147,32 +176,38 @@ impl<'a> Closing<'a> {
                 continue;
             }
             tried.push(reference);
-            let matched = find(&self.submaps, &self.keyframes, (query, reference), &window, self.options);
+            let matched =
+                find(&self.submaps, &self.keyframes, (query, reference), &window, known.across, self.options);
             found.extend(matched.filter(|found| self.is_good(found)));
             if tried.len() >= MOST_CANDIDATES {
                 break;
             }
         }
-        self.tentative[query] = self.unambiguous(&found);
+        let unambiguous = self.unambiguous(&found);
+        let pose = |submap: usize| self.pose(submap);
+        let travelled = |submap: usize| self.submaps[submap].travelled;
+        self.tentative[query] =
+            unambiguous.into_iter().map(|found| linked(found, &self.tentative, travelled, pose)).collect();
         self.accept(query)
     }
 
     /// The earlier submaps that a submap may lie on: how far off each is believed to be, and where to look. The
     /// nearest first.
-    fn candidates(&self, query: usize) -> Vec<(f64, usize, Window)> {
+    fn candidates(&self, query: usize) -> Vec<Candidate> {
         let here = self.pose(query);
         let is_long_ago = |reference: usize| {
             self.submaps[query].travelled - self.submaps[reference].travelled >= self.options.least_travel
         };
-        let mut candidates: Vec<(f64, usize, Window)> = Vec::new();
-        for (reference, way) in self.ways(query).into_iter().enumerate().take(query) {
-            let window = self.window(here, reference, way);
+        let mut candidates: Vec<Candidate> = Vec::new();
+        let known = self.ways.from(query, |submap| self.pose(submap));
+        for (reference, known) in known.into_iter().enumerate().take(query) {
+            let window = self.window(here, reference, known);
             let off = window.center.translation().norm();
             if is_long_ago(reference) && off < window.across + self.options.stretch / 2.0 {
-                candidates.push((off, reference, window));
+                candidates.push(Candidate { off, reference, window, known });
             }
         }
-        candidates.sort_by(|a, b| a.0.total_cmp(&b.0));
+        candidates.sort_by(|a, b| a.off.total_cmp(&b.off));
         candidates
     }
 
@@ -196,19 +231,8 @@ impl<'a> Closing<'a> {
 
     /// Accepts the chains that end at a submap.
     fn accept(&mut self, query: usize) -> Result<(), ClosingError> {
-        let pose = |submap: usize| self.pose(submap);
-        let mut added: Vec<Match> = Vec::new();
-        for found in &self.tentative[query] {
-            let mut chain = vec![*found];
-            for before in query.saturating_sub(CHAIN_MEMORY)..query {
-                let travel = self.submaps[query].travelled - self.submaps[before].travelled;
-                let same = self.tentative[before].iter().filter(|other| agree(other, found, travel, pose));
-                chain.extend(same.max_by(|a, b| a.score.total_cmp(&b.score)));
-            }
-            if self.is_convincing(&chain) {
-                added.extend(chain);
-            }
-        }
+        let chains = self.tentative[query].iter().map(|last| chain(last, &self.tentative));
+        let added: Vec<Match> = chains.filter(|chain| self.is_convincing(chain)).flatten().collect();
         let mut farthest: f64 = 0.0;
         for one in added {
             farthest = farthest.max(self.add(one)?);
@@ -220,11 +244,18 @@ impl<'a> Closing<'a> {
         Ok(())
     }
 
-    /// Whether matches that tell the same are no chance: many, or strong, or where they were expected.
+    /// Whether matches that tell the same, the last one first, are no chance: many, or strong, or where they were expected. The
+    /// less is known of where the robot is, the more that looks alike may be there, and the longer it has to look alike.
     fn is_convincing(&self, chain: &[Match]) -> bool {
+        let options = self.options;
         let score = chain.iter().map(|found| found.score).sum::<f64>() / chain.len() as f64;
-        let is_strong = score >= self.options.strong_score || chain.iter().all(|found| found.is_expected);
-        chain.len() + usize::from(is_strong) >= self.options.least_chain
+        let is_strong = score >= options.strong_score || chain.iter().all(|found| found.is_expected);
+        let spread = chain.iter().map(|found| found.spread).fold(f64::INFINITY, f64::min);
+        if spread <= options.well_known {
+            return chain.len() + usize::from(is_strong) >= options.least_chain;
+        }
+        let more = (options.chain_per_metre * (spread - options.well_known)).ceil() as usize;
+        chain.len() >= (options.least_chain + more).min(options.longest_chain)
     }
 
     /// Adds a match to the graph, if it is not there yet, and tells how far off it is: metres, and 10 for a radian.
@@ -237,59 +268,40 @@ impl<'a> Closing<'a> {
         let edge = Edge::observed(start, end, one.relative.mean, &one.relative.covariance);
         let off = edge.error(self.graph.poses()[from], self.graph.poses()[to]);
         self.graph.add_edge(edge)?;
+        if one.slide.is_none() {
+            self.ways.add([one.reference, one.query], CLOSURE_LENGTH, one.relative)?;
+        }
         self.accepted.push(one);
         Ok(off.xy().norm().max(10.0 * off.z.abs()))
     }
 
     /// The poses that a submap may have in the frame of an earlier one.
-    fn window(&self, here: Pose, reference: usize, way: f64) -> Window {
+    fn window(&self, here: Pose, reference: usize, known: Known) -> Window {
         let options = self.options;
         Window {
             center: self.pose(reference).between(here),
-            across: (options.window.0 + options.window.1 * way).min(options.largest_window.0),
-            around: (options.heading_window.0 + options.heading_window.1 * way).min(options.largest_window.1),
+            across: (options.window.0 + options.window.1 * known.length).min(options.largest_window.0),
+            around: (options.heading_window.0 + options.heading_window.1 * known.length)
+                .min(options.largest_window.1),
         }
     }
 
-    /// How long the way is, by track and closures, from a submap to each earlier one: what the uncertainty of
-    /// their relative pose grows with.
-    fn ways(&self, from: usize) -> Vec<f64> {
-        let count = self.submaps.len();
-        let mut ways = vec![f64::INFINITY; count];
-        let mut neighbors: Vec<Vec<(usize, f64)>> = vec![Vec::new(); count];
-        for later in 1..count {
-            let length = self.submaps[later].travelled - self.submaps[later - 1].travelled;
-            neighbors[later].push((later - 1, length));
-            neighbors[later - 1].push((later, length));
+    /// The robust minimum with keyframes matched one by one, and the corrections between keyframes.
+    fn finish(mut self, track: &Track) -> Result<ClosedTrack, ClosingError> {
+        let coarse = self.solve_robustly()?;
+        let middle = |submap: usize| self.submaps[submap].middle;
+        let believed = self.accepted.iter().zip(&coarse.weights[self.tracked..]);
+        let believed: Vec<(usize, usize)> = believed
+            .filter(|&(_, &weight)| weight >= BELIEVED)
+            .map(|(found, _)| (middle(found.reference), middle(found.query)))
+            .collect();
+        for fine in refine(&self.keyframes, &coarse.poses, &believed, self.options) {
+            let (from, to) = (PoseId(fine.from as u32), PoseId(fine.to as u32));
+            let UncertainPose { mean, covariance } = fine.relative;
+            self.graph.add_edge(Edge::observed(from, to, mean, &covariance))?;
         }
-        for closure in self.accepted.iter().filter(|closure| closure.slide.is_none()) {
-            neighbors[closure.query].push((closure.reference, CLOSURE_LENGTH));
-            neighbors[closure.reference].push((closure.query, CLOSURE_LENGTH));
-        }
-        let mut open = std::collections::BinaryHeap::new();
-        ways[from] = 0.0;
-        open.push((std::cmp::Reverse(0_u64), from));
-        while let Some((std::cmp::Reverse(millimetres), submap)) = open.pop() {
-            if millimetres as f64 / 1e3 > ways[submap] + 1e-3 {
-                continue;
-            }
-            for &(next, length) in &neighbors[submap] {
-                let way = ways[submap] + length;
-                if way < ways[next] {
-                    ways[next] = way;
-                    open.push((std::cmp::Reverse((way * 1e3) as u64), next));
-                }
-            }
-        }
-        ways
-    }
-
-    /// The robust minimum, and the corrections between keyframes.
-    fn finish(self, track: &Track) -> Result<ClosedTrack, ClosingError> {
-        // Track edges lead from a keyframe to the next, closures never do.
-        let is_closure = |edge: &Edge| edge.to.0 != edge.from.0 + 1;
-        let kernel = |edge: &Edge| is_closure(edge).then_some(Kernel::DynamicCovarianceScaling(KERNEL));
-        let robust = solve_robustly(&self.graph, kernel, &Options::default())?;
+        self.graph.set_poses(coarse.poses)?;
+        let robust = self.solve_robustly()?;
         let scan = |submap: usize| self.keyframes[self.submaps[submap].middle].scan;
         let closures = self.accepted.iter().zip(&robust.weights[self.tracked..]);
         let closures = closures.map(|(found, &weight)| Closure {
@@ -298,9 +310,18 @@ impl<'a> Closing<'a> {
             relative: found.relative.mean,
             covariance: found.relative.covariance,
             agreement: found.agreement,
+            spread: found.spread,
             weight,
         });
         Ok(ClosedTrack { poses: spread(&self.keyframes, &robust.poses, track), closures: closures.collect() })
+    }
+
+    /// The minimum in which closures that the rest contradicts count little.
+    fn solve_robustly(&self) -> Result<RobustSolution, SolveError> {
+        // Track edges lead from a keyframe to the next, closures never do.
+        let is_closure = |edge: &Edge| edge.to.0 != edge.from.0 + 1;
+        let kernel = |edge: &Edge| is_closure(edge).then_some(Kernel::DynamicCovarianceScaling(KERNEL));
+        solve_robustly(&self.graph, kernel, &Options::default())
     }
 }
 

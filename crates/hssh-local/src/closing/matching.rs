@@ -42,14 +42,18 @@ pub(super) struct Match {
     pub(super) is_clear: bool,
     /// Whether the window was so small that there was nothing else to find.
     pub(super) is_expected: bool,
+    /// How well it was known before where one is from the other: standard deviation in metres.
+    pub(super) spread: f64,
 }
 
-/// Looks for a submap in an earlier one. `None` if it does not lie in the window.
+/// Looks for a submap in an earlier one, of which it is known where it is up to a standard deviation `spread`. `None` if it does
+/// not lie in the window.
 pub(super) fn find(
     submaps: &[Submap],
     keyframes: &[Keyframe],
     (query, reference): (usize, usize),
     window: &Window,
+    spread: f64,
     options: &ClosingOptions,
 ) -> Option<Match> {
     let (one, other) = (&submaps[reference], &submaps[query]);
@@ -76,7 +80,7 @@ pub(super) fn find(
     if slide.is_some() && !is_expected {
         return None;
     }
-    let covariance = as_shown(&fine.covariance, slide, options)?;
+    let covariance = as_shown(&fine.covariance, slide, options.floor)?;
     let relative = UncertainPose { mean: fine.mean, covariance };
     Some(Match {
         query,
@@ -88,7 +92,30 @@ pub(super) fn find(
         overlap,
         is_clear,
         is_expected,
+        spread,
     })
+}
+
+/// Where surfaces lie on a cloud, from a start that is good to some decimetres. `None` if too little of them does.
+pub(super) fn refined(
+    cloud: &Cloud,
+    surfaces: &[SurfacePoint],
+    start: Pose,
+    options: &ClosingOptions,
+) -> Option<UncertainPose> {
+    /// So many of the surfaces at least lie on the cloud.
+    const LEAST: usize = 30;
+    let covariance = Covariance::from_standard_deviations(ALIGNED.0, ALIGNED.0, ALIGNED.1).expect("positive");
+    let prior = UncertainPose { mean: start, covariance };
+    let matching = MatchOptions { floor: (0.0, 0.0), hits_per_observation: 10.0, ..MatchOptions::default() };
+    let fine = align(cloud, surfaces, start, &prior, &matching);
+    let slide = slide(cloud, surfaces, fine.mean, options.least_crossing);
+    let rotation = fine.mean.rotation();
+    let lies = |surface: &&SurfacePoint| {
+        cloud.nearest(fine.mean.translation() + rotation * surface.position, ON_WALL).is_some()
+    };
+    let covariance = as_shown(&fine.covariance, slide, options.fine_floor)?;
+    (surfaces.iter().filter(lies).count() >= LEAST).then_some(UncertainPose { mean: fine.mean, covariance })
 }
 
 /// The direction along which all walls that both submaps have lead, so that one can be slid on the other: less than the part
@@ -120,16 +147,12 @@ fn slide(
 
 /// How well the walls show a pose that was aligned: without what the alignment believed before, for where the search
 /// began is no observation, and without what cannot be told along the direction in which all walls lead.
-fn as_shown(
-    aligned: &Covariance,
-    slide: Option<Vector2<f64>>,
-    options: &ClosingOptions,
-) -> Option<Covariance> {
+fn as_shown(aligned: &Covariance, slide: Option<Vector2<f64>>, floor: (f64, f64)) -> Option<Covariance> {
     let precision = |(across, around): (f64, f64)| {
         Matrix3::from_diagonal(&Vector3::new(across, across, around).map(|sigma| sigma.powi(-2)))
     };
     let information = aligned.information().matrix() - precision(ALIGNED) + precision(UNKNOWN);
-    let floor = Vector3::new(options.floor.0, options.floor.0, options.floor.1).map(|sigma| sigma * sigma);
+    let floor = Vector3::new(floor.0, floor.0, floor.1).map(|sigma| sigma * sigma);
     let along = slide.map_or(Vector3::zeros(), |axis| UNKNOWN.0 * Vector3::new(axis.x, axis.y, 0.0));
     let covariance =
         information.cholesky()?.inverse() + Matrix3::from_diagonal(&floor) + along * along.transpose();
@@ -160,8 +183,7 @@ mod tests {
     fn what_the_walls_do_not_show_is_not_known() {
         let aligned = Matrix3::from_diagonal(&Vector3::new(1.0 / 0.25, 1e4 + 1.0 / 0.25, 1e4 + 1.0 / 0.01));
         let aligned = Covariance::new(aligned.try_inverse().unwrap()).unwrap();
-        let options = ClosingOptions { floor: (0.03, 0.0), ..ClosingOptions::default() };
-        let shown = as_shown(&aligned, None, &options).unwrap();
+        let shown = as_shown(&aligned, None, (0.03, 0.0)).unwrap();
         let sigmas = shown.matrix().diagonal().map(f64::sqrt);
         assert!((sigmas.x - 5.0).abs() < 0.01, "{sigmas}");
         assert!((sigmas.y - 0.01_f64.hypot(0.03)).abs() < 1e-4 && (sigmas.z - 0.01).abs() < 1e-4, "{sigmas}");

@@ -7,8 +7,11 @@ mod field;
 mod keyframe;
 mod matching;
 mod options;
+mod refine;
 mod search;
 mod submap;
+mod ways;
 
 pub use close::{ClosedTrack, ClosingError, Closure, close_loops};
 pub use options::ClosingOptions;
+pub(crate) use ways::{Known, Ways};

@@ -1,8 +1,10 @@
 //! What a survey rests on: how often the laser showed that the robot was back, how often the rest of the log contradicts
 //! that, and where the robot seems to be back although the laser does not show it.
 
+use hssh_metrics::UncertainPose;
+
 use super::error::SurveyWarning;
-use crate::closing::Closure;
+use crate::closing::{Closure, Known, Ways};
 use crate::matching::Track;
 
 /// Closures of scans that are nearer than this to one another on both passes are one return: metres of travel.
@@ -15,6 +17,8 @@ pub(super) const CONFIRMING: f64 = 8.0;
 const LEAST_TRAVEL: f64 = 15.0;
 /// A closure that counts less than this in the end is contradicted.
 pub(super) const BELIEVED: f64 = 0.5;
+/// Where the robot is known up to this standard deviation, in metres, it is where it seems to be.
+const WELL_KNOWN: f64 = 2.5;
 /// Metres of travel between the scans that are asked whether the robot is back.
 const STEP: f64 = 1.0;
 
@@ -23,10 +27,15 @@ const STEP: f64 = 1.0;
 pub struct Evidence {
     /// How often the robot came back to a stretch of its way, as the laser shows.
     pub returns: usize,
+    /// How many of these the robot came back to after so long a way that it might have been elsewhere.
+    pub far_returns: usize,
     /// How many stretches looked like an earlier one, and the rest of the log contradicts that.
     pub contradicted: usize,
     /// How many times the robot seems to be back and the laser does not show it.
     pub unconfirmed: usize,
+    /// How many times it seems to be back after so long a way that it might as well be elsewhere, and the laser does
+    /// not show it.
+    pub adrift: usize,
     /// On how many stretches the robot was lost: scans lie on nothing that was seen before, wherever they are put. A log
     /// without odometry counts as one.
     pub lost: usize,
@@ -37,17 +46,28 @@ pub struct Evidence {
 pub struct PerceptionModel {
     /// A return that the laser shows is none.
     pub wrong_return: f64,
+    /// The same after a long way.
+    pub wrong_far_return: f64,
     /// Something else is wrong with the map where a closure is contradicted.
     pub contradicted: f64,
     /// The robot was back somewhere else, or not at all, where the laser does not show it.
     pub unconfirmed: f64,
+    /// The same after so long a way that the robot might as well be elsewhere.
+    pub adrift: f64,
     /// Something is wrong with the map where the robot was lost.
     pub lost: f64,
 }
 
 impl Default for PerceptionModel {
     fn default() -> Self {
-        PerceptionModel { wrong_return: 0.002, contradicted: 0.1, unconfirmed: 0.02, lost: 0.7 }
+        PerceptionModel {
+            wrong_return: 0.002,
+            wrong_far_return: 0.03,
+            contradicted: 0.1,
+            unconfirmed: 0.02,
+            adrift: 0.3,
+            lost: 0.7,
+        }
     }
 }
 
@@ -56,9 +76,11 @@ impl Evidence {
     #[must_use]
     pub fn probability(&self, model: &PerceptionModel) -> f64 {
         let all = |error: f64, times: usize| (1.0 - error).powi(times.min(10_000) as i32);
-        all(model.wrong_return, self.returns)
+        all(model.wrong_return, self.returns.saturating_sub(self.far_returns))
+            * all(model.wrong_far_return, self.far_returns)
             * all(model.contradicted, self.contradicted)
             * all(model.unconfirmed, self.unconfirmed)
+            * all(model.adrift, self.adrift)
             * all(model.lost, self.lost)
     }
 }
@@ -68,13 +90,17 @@ pub(super) fn evidence(track: &Track, closures: &[Closure]) -> (Evidence, Vec<Su
     let (believed, contradicted): (Vec<Closure>, Vec<Closure>) =
         closures.iter().partition(|closure| closure.weight >= BELIEVED);
     let mut warnings = Vec::new();
-    let mut evidence = Evidence { returns: stretches(track, &believed).len(), ..Evidence::default() };
+    let returns = stretches(track, &believed);
+    let is_far = |stretch: &&Vec<Closure>| stretch.iter().any(|closure| closure.spread > WELL_KNOWN);
+    let far_returns = returns.iter().filter(is_far).count();
+    let mut evidence = Evidence { returns: returns.len(), far_returns, ..Evidence::default() };
     for closure in stretches(track, &contradicted).iter().filter_map(|stretch| stretch.first()) {
         evidence.contradicted += 1;
         warnings.push(SurveyWarning::Contradicted { scan: closure.later + 1, earlier: closure.earlier + 1 });
     }
-    for (later, earlier) in unconfirmed(track, &believed) {
-        evidence.unconfirmed += 1;
+    for (later, earlier, known) in unconfirmed(track, &believed) {
+        let is_known = known.across <= WELL_KNOWN;
+        *if is_known { &mut evidence.unconfirmed } else { &mut evidence.adrift } += 1;
         warnings.push(SurveyWarning::Unconfirmed { scan: later + 1, earlier: earlier + 1 });
     }
     (evidence, warnings)
@@ -100,18 +126,21 @@ pub(super) fn stretches<'a>(
     stretches
 }
 
-/// Where the robot seems to be back, and no closure says so: one pair of scans for each stretch.
-fn unconfirmed(track: &Track, believed: &[Closure]) -> Vec<(usize, usize)> {
+/// Where the robot seems to be back, and no closure says so: one pair of scans for each stretch, the later one first, and how
+/// well they are known to one another.
+fn unconfirmed(track: &Track, believed: &[Closure]) -> Vec<(usize, usize, Known)> {
     let mut asked: Vec<usize> = Vec::new();
     for (scan, tracked) in track.scans.iter().enumerate() {
         if asked.last().is_none_or(|&last| tracked.travelled - track.scans[last].travelled >= STEP) {
             asked.push(scan);
         }
     }
+    let ways = ways(track, &asked, believed);
     let at = |scan: usize| track.scans[scan].travelled;
-    let mut found: Vec<(usize, usize)> = Vec::new();
+    let mut found: Vec<(usize, usize, Known)> = Vec::new();
     for (index, &later) in asked.iter().enumerate() {
-        for &earlier in &asked[..index] {
+        let mut known: Option<Vec<Known>> = None;
+        for (point, &earlier) in asked[..index].iter().enumerate() {
             let apart =
                 (track.scans[later].pose.translation() - track.scans[earlier].pose.translation()).norm();
             if at(later) - at(earlier) < LEAST_TRAVEL || apart > NEAR {
@@ -121,15 +150,36 @@ fn unconfirmed(track: &Track, believed: &[Closure]) -> Vec<(usize, usize)> {
                 (at(closure.later) - at(later)).abs() < CONFIRMING
                     && (at(closure.earlier) - at(earlier)).abs() < CONFIRMING
             });
-            let is_told = found.iter().any(|&(other, before)| {
+            let is_told = found.iter().any(|&(other, before, _)| {
                 (at(other) - at(later)).abs() < ONE_RETURN && (at(before) - at(earlier)).abs() < ONE_RETURN
             });
-            if !is_confirmed && !is_told {
-                found.push((later, earlier));
+            if is_confirmed || is_told {
+                continue;
             }
+            let pose = |point: usize| track.scans[asked[point]].pose;
+            let known = known.get_or_insert_with(|| ways.from(index, pose));
+            found.push((later, earlier, known[point]));
         }
     }
     found
+}
+
+/// The ways between some scans, by the track and by closures.
+fn ways(track: &Track, asked: &[usize], believed: &[Closure]) -> Ways {
+    let mut ways = Ways::new(asked.len());
+    for (index, pair) in asked.windows(2).enumerate() {
+        let length = track.scans[pair[1]].travelled - track.scans[pair[0]].travelled;
+        if let Ok(Some(motion)) = track.motion(pair[0], pair[1]) {
+            // What is too uncertain leads nowhere.
+            ways.add([index, index + 1], length, motion).ok();
+        }
+    }
+    let nearest = |scan: usize| asked.partition_point(|&other| other <= scan).saturating_sub(1);
+    for closure in believed {
+        let link = UncertainPose { mean: closure.relative, covariance: closure.covariance };
+        ways.add([nearest(closure.earlier), nearest(closure.later)], STEP, link).ok();
+    }
+    ways
 }
 
 #[cfg(test)]
@@ -150,7 +200,9 @@ mod tests {
                 let part = step as f64 / steps;
                 let pose = Pose::new(at(part, 0), at(part, 1), 0.0);
                 let travelled = 0.5 * (scans.len() as f64 + 1.0);
-                scans.push(TrackedScan { pose, step: None, travelled });
+                let mean = scans.last().map_or(Pose::IDENTITY, |last| last.pose.between(pose));
+                let covariance = Covariance::from_standard_deviations(0.01, 0.01, 0.001).unwrap();
+                scans.push(TrackedScan { pose, step: Some(UncertainPose { mean, covariance }), travelled });
             }
         }
         Track { scans, lost: Vec::new() }
@@ -161,7 +213,7 @@ mod tests {
         let scan = |at: f64| (2.0 * at) as usize - 1;
         let (earlier, later) = (scan(earlier), scan(later));
         let covariance = Covariance::from_standard_deviations(0.1, 0.1, 0.01).unwrap();
-        Closure { earlier, later, relative: Pose::IDENTITY, covariance, agreement: 1.0, weight }
+        Closure { earlier, later, relative: Pose::IDENTITY, covariance, agreement: 1.0, spread: 0.5, weight }
     }
 
     /// Around a square of 30 m, and half of it again.
@@ -237,9 +289,12 @@ mod tests {
             returns in 0_usize..3000, contradicted in 0_usize..40, unconfirmed in 0_usize..40,
             errors in prop::array::uniform3(0.0_f64..=1.0),
         ) {
+            let certain = PerceptionModel {
+                wrong_return: 0.0, wrong_far_return: 0.0, contradicted: 0.0, unconfirmed: 0.0, adrift: 0.0, lost: 0.0,
+            };
             let model =
-                PerceptionModel { wrong_return: errors[0], contradicted: errors[1], unconfirmed: errors[2], lost: 0.0 };
-            let evidence = Evidence { returns, contradicted, unconfirmed, lost: 0 };
+                PerceptionModel { wrong_return: errors[0], contradicted: errors[1], unconfirmed: errors[2], ..certain };
+            let evidence = Evidence { returns, contradicted, unconfirmed, ..Evidence::default() };
             let probability = evidence.probability(&model);
             prop_assert!((0.0..=1.0).contains(&probability));
             for more in [
@@ -250,8 +305,8 @@ mod tests {
                 prop_assert!(more.probability(&model) <= probability);
             }
             let right = (1.0 - 0.25_f64).powi(2) * (1.0 - 0.5) * (1.0 - 0.125);
-            let model = PerceptionModel { wrong_return: 0.25, contradicted: 0.5, unconfirmed: 0.125, lost: 0.5 };
-            let two_one_one = Evidence { returns: 2, contradicted: 1, unconfirmed: 1 , lost: 0};
+            let model = PerceptionModel { wrong_return: 0.25, contradicted: 0.5, unconfirmed: 0.125, lost: 0.5, ..certain };
+            let two_one_one = Evidence { returns: 2, contradicted: 1, unconfirmed: 1, ..Evidence::default() };
             prop_assert!((two_one_one.probability(&model) - right).abs() < 1e-12);
         }
     }

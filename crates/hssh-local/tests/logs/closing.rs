@@ -217,7 +217,6 @@ fn neighboring_corridors_that_look_alike_stay_apart() {
 /// The robot comes after so long a way that it might have drifted from one corridor to the other, for all that it
 /// knows of itself.
 #[test]
-#[ignore = "what lies within the drift that is allowed for and looks alike is taken for the same"]
 fn corridors_that_look_alike_stay_apart_after_a_long_way() {
     for (apart, detour) in [(4.0, 40.0), (6.0, 40.0), (8.0, 100.0)] {
         let corridors = [
