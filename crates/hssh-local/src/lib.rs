@@ -10,6 +10,7 @@ mod local_map;
 mod map_server;
 mod matching;
 mod place;
+mod region;
 mod route;
 mod scan;
 mod skeleton;
@@ -31,6 +32,9 @@ pub use place::{
     DoorOptions, Gateway, GatewayOptions, GridPlace, LocalStar, Neighborhood, NeighborhoodError, OpenEnd,
     PlaceConnection, PlaceGraph, PlaceGraphError, PlaceKind, PlaceNumber, PlaceOptions, Sighting, doors,
     hidden_area, neighborhood, sight,
+};
+pub use region::{
+    CutOptions, KindOptions, Passage, Region, RegionKind, RegionMap, RegionNumber, RegionOptions,
 };
 pub use route::RouteOptions;
 pub use scan::Scan;

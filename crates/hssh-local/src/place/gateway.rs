@@ -81,7 +81,7 @@ pub(super) fn bearing(way: &[AxisPoint], along: &[f64], at: usize, options: &Gat
 }
 
 /// The gateway across the middle line of a way at one of its points, leaving with `bearing`.
-pub(super) fn gateway_at(at: &AxisPoint, bearing: f64, field: &DistanceField) -> Gateway {
+pub(crate) fn gateway_at(at: &AxisPoint, bearing: f64, field: &DistanceField) -> Gateway {
     let [left, right] = sides(at, bearing, field);
     let across = [left[0] - right[0], left[1] - right[1]];
     let between = across[0].hypot(across[1]);
