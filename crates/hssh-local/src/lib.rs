@@ -11,6 +11,7 @@ mod map_server;
 mod matching;
 mod place;
 mod region;
+mod roadmap;
 mod route;
 mod scan;
 mod skeleton;
@@ -34,7 +35,11 @@ pub use place::{
     hidden_area, neighborhood, sight,
 };
 pub use region::{
-    CutOptions, KindOptions, Passage, Region, RegionKind, RegionMap, RegionNumber, RegionOptions,
+    CutOptions, DoorwayOptions, KindOptions, Passage, Region, RegionKind, RegionMap, RegionNumber,
+    RegionOptions,
+};
+pub use roadmap::{
+    Connection, RegionPlace, RoadNode, RoadNodeKind, RoadNodeNumber, Roadmap, RoadmapOptions, Way,
 };
 pub use route::RouteOptions;
 pub use scan::Scan;

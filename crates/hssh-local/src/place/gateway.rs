@@ -36,6 +36,16 @@ impl Gateway {
     }
 }
 
+impl Gateway {
+    /// The same line for somebody who comes the other way.
+    #[must_use]
+    pub fn reversed(&self) -> Self {
+        let bearing = hssh_metrics::wrap_angle(self.bearing + std::f64::consts::PI);
+        let [left, right] = self.line;
+        Gateway { bearing, line: [right, left], ..*self }
+    }
+}
+
 /// The position of a place's gateway in a way out: of the points in `range`, the first that is about as narrow as
 /// the narrowest.
 pub(super) fn gateway_position(way: &[AxisPoint], range: Range<usize>, options: &GatewayOptions) -> usize {

@@ -56,13 +56,18 @@ struct Merger<'a> {
     candidates: BinaryHeap<Candidate>,
 }
 
-/// Joins pieces as long as there is a border that is no cut by the odds, the least cut first. Returns for each piece
-/// the piece that stands for its region, and the borders that are left.
-pub(super) fn merged(
-    extents: Vec<Extent>,
-    borders: BTreeMap<Pair, Border>,
-    options: &CutOptions,
-) -> (Vec<u32>, BTreeMap<Pair, Border>) {
+/// What is left of pieces.
+pub(super) struct Merged {
+    /// For each piece the one that stands for its region.
+    pub(super) region_of: Vec<u32>,
+    /// For each piece that stands for a region how large that is.
+    pub(super) extents: Vec<Extent>,
+    /// What lies between regions.
+    pub(super) borders: BTreeMap<Pair, Border>,
+}
+
+/// Joins pieces as long as there is a border that is no cut by the odds, the least cut first.
+pub(super) fn merged(extents: Vec<Extent>, borders: BTreeMap<Pair, Border>, options: &CutOptions) -> Merged {
     let count = extents.len();
     let mut merger = Merger {
         options,
@@ -76,24 +81,24 @@ pub(super) fn merged(
         merger.borders[b as usize].insert(a, border);
     }
     (0..count as u32).for_each(|piece| merger.weigh(piece, |other| other > piece));
-    let mut regions: Vec<u32> = (0..count as u32).collect();
+    let mut region_of: Vec<u32> = (0..count as u32).collect();
     while let Some(Candidate { pair: (kept, gone), ages, odds }) = merger.candidates.pop() {
         if odds > 0.0 {
             break;
         }
         if ages == [kept, gone].map(|piece| merger.ages[piece as usize]) {
             merger.join(kept, gone);
-            regions[gone as usize] = kept;
+            region_of[gone as usize] = kept;
         }
     }
     // A piece only ever goes to one with a lower number.
     for piece in 0..count {
-        regions[piece] = regions[regions[piece] as usize];
+        region_of[piece] = region_of[region_of[piece] as usize];
     }
     let left = merger.borders.into_iter().enumerate().flat_map(|(a, neighbors)| {
         neighbors.into_iter().map(move |(b, border)| ((a as u32, b), border)).filter(|((a, b), _)| a < b)
     });
-    (regions, left.collect())
+    Merged { region_of, extents: merger.extents, borders: left.collect() }
 }
 
 impl Merger<'_> {

@@ -5,20 +5,22 @@
 //! pieces are [merged](merge) again where a cut is not worth it, by one measure of [all that lies between](border).
 
 mod border;
+mod door;
 mod flood;
 mod ground;
 mod merge;
 mod options;
 mod passage;
 
+use border::{Border, Gap, Pair};
 use flood::{Joining, NO_PIECE, Pieces};
-use merge::Extent;
+use merge::{Extent, Merged};
 
 use crate::grid::{Cell, Lattice, OccupancyGrid};
 use crate::place::PlaceGraphError;
 use crate::skeleton::{FreeSpace, SkeletonOptions};
 
-pub use options::{CutOptions, KindOptions, RegionOptions};
+pub use options::{CutOptions, DoorwayOptions, KindOptions, RegionOptions};
 pub use passage::Passage;
 
 /// A region of a map: an index into [`RegionMap::regions`].
@@ -62,6 +64,8 @@ pub struct Region {
 pub struct RegionMap {
     lattice: Lattice,
     labels: Vec<u32>,
+    /// The passages of each region.
+    passages_of: Vec<Vec<u32>>,
     /// The regions.
     pub regions: Vec<Region>,
     /// Where they lead to one another.
@@ -86,49 +90,51 @@ impl RegionMap {
             return Err(PlaceGraphError::of(grid, &free, options.narrowest));
         }
         let field = free.field();
-        let lattice = *grid.lattice();
-        let joining =
-            Joining { as_wide: options.as_wide, least: options.narrowest / 2.0 / lattice.resolution() };
-        let Pieces { mut labels, widest } = flood::flood(field, joining);
-        let extents = extents(&labels, &free, widest.len());
-        let borders = border::borders(&labels, field, options.thickest_wall);
-        let (regions, borders) = merge::merged(extents, borders, &options.cut);
-        for label in labels.iter_mut().filter(|label| **label != NO_PIECE) {
-            *label = regions[*label as usize];
+        let least = options.narrowest / 2.0 / grid.lattice().resolution();
+        let pieces = flood::flood(field, Joining { as_wide: options.as_wide, least });
+        let extents = extents(&pieces, &free);
+        let borders = border::borders(&pieces.labels, field, options.thickest_wall);
+        let Merged { region_of, extents, borders } = merge::merged(extents, borders, &options.cut);
+        let gaps = |(&pair, border): (&Pair, &'_ Border)| {
+            let passable = border.gaps.iter().filter(|gap| gap.width >= options.narrowest).copied();
+            passable.map(move |gap| (pair, gap)).collect::<Vec<_>>()
+        };
+        let gaps: Vec<(Pair, Gap)> = borders.iter().flat_map(gaps).collect();
+        let mut leads_on = vec![false; extents.len()];
+        for &((a, b), _) in &gaps {
+            (leads_on[a as usize], leads_on[b as usize]) = (true, true);
         }
-        let extents = self::extents(&labels, &free, widest.len());
-        let mut peaks = vec![0.0_f64; widest.len()];
-        for (piece, &cell) in widest.iter().enumerate() {
-            let peak = &mut peaks[regions[piece] as usize];
-            *peak = peak.max(field.clearance_at(cell as usize));
+        let mut widest = vec![0.0_f64; extents.len()];
+        for (&cell, &region) in pieces.widest.iter().zip(&region_of) {
+            widest[region as usize] = widest[region as usize].max(2.0 * field.clearance_at(cell as usize));
         }
-        let mut is_open = vec![false; widest.len()];
-        let gaps =
-            || borders.iter().flat_map(|(&(a, b), border)| border.gaps.iter().map(move |gap| ([a, b], gap)));
-        let passable = |gap: &border::Gap| gap.width >= options.narrowest;
-        for ([a, b], _) in gaps().filter(|(_, gap)| passable(gap)) {
-            (is_open[a as usize], is_open[b as usize]) = (true, true);
-        }
-        let mut numbers = vec![NO_PIECE; widest.len()];
-        let mut kept = Vec::new();
-        for piece in 0..widest.len() {
-            let is_one = regions[piece] == piece as u32
-                && (is_open[piece] || 2.0 * peaks[piece] >= options.kind.narrowest_closed);
-            if is_one {
-                numbers[piece] = kept.len() as u32;
-                kept.push(Region::new(extents[piece], &options.kind));
+        let is_kept = |piece: usize| leads_on[piece] || widest[piece] >= options.kind.narrowest_closed;
+        let mut numbers = vec![NO_PIECE; extents.len()];
+        let mut regions = Vec::new();
+        for piece in (0..extents.len() as u32).filter(|&piece| region_of[piece as usize] == piece) {
+            if is_kept(piece as usize) {
+                numbers[piece as usize] = regions.len() as u32;
+                regions.push(Region::new(extents[piece as usize], &options.kind));
             }
         }
+        let mut labels = pieces.labels;
         for label in labels.iter_mut().filter(|label| **label != NO_PIECE) {
-            *label = numbers[*label as usize];
+            *label = numbers[region_of[*label as usize] as usize];
         }
-        let passages = gaps()
-            .filter(|(_, gap)| passable(gap))
-            .map(|(pair, gap)| {
-                passage::passage(gap, pair.map(|piece| numbers[piece as usize]), &labels, field)
-            })
-            .collect();
-        Ok(RegionMap { lattice, labels, regions: kept, passages })
+        let passage = |&((a, b), gap): &(Pair, Gap)| {
+            let pair = [a, b].map(|piece| numbers[piece as usize]);
+            let gateway = passage::gateway_of(&gap, pair, &labels, field);
+            let narrower =
+                pair.map(|number| regions[number as usize].width).into_iter().fold(f64::MAX, f64::min);
+            let door_probability = door::door_probability(&gateway, narrower, field, &options.door);
+            Passage { regions: pair.map(RegionNumber), gateway, door_probability }
+        };
+        let passages: Vec<Passage> = gaps.iter().map(passage).collect();
+        let mut passages_of = vec![Vec::new(); regions.len()];
+        for (number, passage) in passages.iter().enumerate() {
+            passage.regions.iter().for_each(|region| passages_of[region.index()].push(number as u32));
+        }
+        Ok(RegionMap { lattice: *grid.lattice(), labels, passages_of, regions, passages })
     }
 
     /// Where the cells are.
@@ -148,6 +154,11 @@ impl RegionMap {
     #[must_use]
     pub fn region_at(&self, point: [f64; 2]) -> Option<RegionNumber> {
         self.region_of(self.lattice.cell_at(point)?)
+    }
+
+    /// The passages of a region, by their indices.
+    pub fn passages_of(&self, region: RegionNumber) -> impl Iterator<Item = u32> {
+        self.passages_of[region.index()].iter().copied()
     }
 
     /// A region.
@@ -175,10 +186,10 @@ impl Region {
 }
 
 /// How large the pieces are and how wide.
-fn extents(labels: &[u32], free: &FreeSpace, pieces: usize) -> Vec<Extent> {
+fn extents(pieces: &Pieces, free: &FreeSpace) -> Vec<Extent> {
     let cell = free.field().lattice().resolution().powi(2);
-    let mut extents = vec![Extent::default(); pieces];
-    for (index, &label) in labels.iter().enumerate() {
+    let mut extents = vec![Extent::default(); pieces.widest.len()];
+    for (index, &label) in pieces.labels.iter().enumerate() {
         if label != NO_PIECE {
             let extent = &mut extents[label as usize];
             extent.area += cell;

@@ -23,6 +23,8 @@ pub struct RegionOptions {
     pub thickest_wall: f64,
     /// What a cut costs and is worth.
     pub cut: CutOptions,
+    /// What makes a passage a door.
+    pub door: DoorwayOptions,
     /// What kinds of regions there are.
     pub kind: KindOptions,
 }
@@ -43,6 +45,35 @@ pub struct CutOptions {
     pub small: f64,
     /// The area from which on a piece is as good as a room. Default: 5 m².
     pub room: f64,
+}
+
+/// How probably a passage has a door: the logarithm of the odds is a sum of what is measured, each times a weight.
+#[derive(Clone, Copy, PartialEq, Debug, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct DoorwayOptions {
+    /// What nothing else says. Default: −5.3.
+    pub base: f64,
+    /// The weight of how narrow the narrower of the two regions is, if it is narrower than
+    /// [`room_width`](Self::room_width): there are no doors between desks. Default: 7.
+    pub room: f64,
+    /// A region that is as wide as this may be a room. Default: 1.5 m, four times the mean clearance.
+    pub room_width: f64,
+    /// The weight of how much of the line beyond the better end is wall. Default: 4.
+    pub wall: f64,
+    /// The line is followed as far as this. Default: 0.8 m.
+    pub beside: f64,
+    /// The wall may be off the line by this. Default: 0.1 m.
+    pub tolerance: f64,
+    /// The weight of how free the way through is. Default: 3.
+    pub way: f64,
+    /// The way is looked at as far as this to both sides. Default: 0.9 m.
+    pub through: f64,
+    /// And as far as this to the left and right of its middle. Default: 0.2 m.
+    pub half_leaf: f64,
+    /// The weight of each metre that the passage is wider than [`widest_leaf`](Self::widest_leaf). Default: 8.
+    pub excess: f64,
+    /// The widest leaf that is usual. Default: 0.9 m.
+    pub widest_leaf: f64,
 }
 
 /// What tells the kinds of regions apart.
@@ -72,6 +103,7 @@ impl Default for RegionOptions {
             as_wide: 0.9,
             thickest_wall: 0.5,
             cut: CutOptions::default(),
+            door: DoorwayOptions::default(),
             kind: KindOptions::default(),
         }
     }
@@ -80,6 +112,24 @@ impl Default for RegionOptions {
 impl Default for CutOptions {
     fn default() -> Self {
         CutOptions { base: -0.1, walled: 2.5, narrow: 1.0, small: 0.5, room: 5.0 }
+    }
+}
+
+impl Default for DoorwayOptions {
+    fn default() -> Self {
+        DoorwayOptions {
+            base: -5.3,
+            room: 7.0,
+            room_width: 1.5,
+            wall: 4.0,
+            beside: 0.8,
+            tolerance: 0.1,
+            way: 3.0,
+            through: 0.9,
+            half_leaf: 0.2,
+            excess: 8.0,
+            widest_leaf: 0.9,
+        }
     }
 }
 

@@ -19,10 +19,20 @@ pub struct Passage {
     pub regions: [RegionNumber; 2],
     /// The line between the nearest obstacles on both sides, for somebody who goes from the first region to the second.
     pub gateway: Gateway,
+    /// How probably there is a door.
+    pub door_probability: f64,
 }
 
-/// The passage through a gap between two regions.
-pub(super) fn passage(gap: &Gap, regions: [u32; 2], labels: &[u32], field: &DistanceField) -> Passage {
+impl Passage {
+    /// Whether a door is more probable than none.
+    #[must_use]
+    pub fn is_door(&self) -> bool {
+        self.door_probability >= 0.5
+    }
+}
+
+/// The line across a gap between two regions, for somebody who goes from the first to the second.
+pub(super) fn gateway_of(gap: &Gap, regions: [u32; 2], labels: &[u32], field: &DistanceField) -> Gateway {
     let lattice = field.lattice();
     let cell = lattice.cell(gap.cell as usize);
     let at = AxisPoint { cell, point: lattice.center(cell), clearance: field.clearance(cell) };
@@ -46,5 +56,5 @@ pub(super) fn passage(gap: &Gap, regions: [u32; 2], labels: &[u32], field: &Dist
         _ => left,
     };
     let bearing = hssh_metrics::wrap_angle(bearing);
-    Passage { regions: regions.map(RegionNumber), gateway: gateway_at(&at, bearing, field) }
+    gateway_at(&at, bearing, field)
 }
