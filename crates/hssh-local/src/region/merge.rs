@@ -32,10 +32,13 @@ pub(super) fn cut_odds(border: &Border, sides: [Extent; 2], options: &CutOptions
     let [a, b] = sides;
     let open = border.open();
     let open_part = open / (open + border.wall);
-    let narrowness = border.widest() / a.width().min(b.width());
+    let width = a.width().min(b.width());
+    let narrowness = border.widest() / width;
     let smallness = (a.area.min(b.area) / options.room).min(1.0);
+    let slenderness = (width / options.room_width).min(1.0);
     options.base - options.walled * open_part.ln() - options.narrow * narrowness.ln()
         + options.small * smallness.ln()
+        + options.slender * slenderness.ln()
 }
 
 /// A border that may go, as it was when it was weighed.

@@ -45,6 +45,11 @@ pub struct CutOptions {
     pub small: f64,
     /// The area from which on a piece is as good as a room. Default: 5 m².
     pub room: f64,
+    /// The power by which the width of the narrower piece counts if it is narrower than
+    /// [`room_width`](Self::room_width). Default: 1.2.
+    pub slender: f64,
+    /// The width from which on a piece is as good as a room. Default: 1.5 m, four times the mean clearance.
+    pub room_width: f64,
 }
 
 /// How probably a passage has a door: the logarithm of the odds is a sum of what is measured, each times a weight.
@@ -111,7 +116,15 @@ impl Default for RegionOptions {
 
 impl Default for CutOptions {
     fn default() -> Self {
-        CutOptions { base: -0.1, walled: 2.5, narrow: 1.0, small: 0.5, room: 5.0 }
+        CutOptions {
+            base: -0.1,
+            walled: 2.5,
+            narrow: 1.0,
+            small: 0.5,
+            room: 5.0,
+            slender: 1.2,
+            room_width: 1.5,
+        }
     }
 }
 
