@@ -35,7 +35,7 @@ pub use place::{
     hidden_area, neighborhood, sight,
 };
 pub use region::{
-    CutOptions, DoorwayOptions, KindOptions, Passage, Region, RegionKind, RegionMap, RegionNumber,
+    CutOptions, DoorwayOptions, KindOptions, Outline, Passage, Region, RegionKind, RegionMap, RegionNumber,
     RegionOptions,
 };
 pub use roadmap::{

@@ -10,7 +10,9 @@ mod flood;
 mod ground;
 mod merge;
 mod options;
+mod outline;
 mod passage;
+mod picture;
 
 use border::{Border, Gap, Pair};
 use flood::{Joining, NO_PIECE, Pieces};
@@ -21,6 +23,7 @@ use crate::place::PlaceGraphError;
 use crate::skeleton::{FreeSpace, SkeletonOptions};
 
 pub use options::{CutOptions, DoorwayOptions, KindOptions, RegionOptions};
+pub use outline::Outline;
 pub use passage::Passage;
 
 /// A region of a map: an index into [`RegionMap::regions`].
@@ -154,6 +157,12 @@ impl RegionMap {
     #[must_use]
     pub fn region_at(&self, point: [f64; 2]) -> Option<RegionNumber> {
         self.region_of(self.lattice.cell_at(point)?)
+    }
+
+    /// The outlines of all regions, straightened where they move by no more than a cell.
+    #[must_use]
+    pub fn outlines(&self) -> Vec<Outline> {
+        outline::outlines(&self.labels, &self.lattice, self.regions.len(), self.lattice.resolution())
     }
 
     /// The passages of a region, by their indices.
