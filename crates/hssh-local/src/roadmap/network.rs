@@ -26,8 +26,30 @@ pub(super) struct Stretch {
     pub(super) length: f64,
 }
 
-/// The network of links. Branches nearer to one another than `shortest` cells become one.
-pub(super) fn network(window: &Window, terminals: &[usize], links: &[Link], shortest: f64) -> Network {
+impl Stretch {
+    /// The same way as seen from one of its ends.
+    fn from(mut self, node: usize) -> Self {
+        if self.ends[0] != node {
+            self.ends.reverse();
+            self.path.reverse();
+        }
+        self
+    }
+}
+
+/// What may be left out of a network; lengths in cells.
+#[derive(Clone, Copy)]
+pub(super) struct Pruning {
+    /// So many of the terminals, the first ones, are there to stay.
+    pub(super) fixed: usize,
+    /// Branches nearer to one another than this become one.
+    pub(super) shortest: f64,
+    /// Ways that lead nowhere count from this length on.
+    pub(super) arm: f64,
+}
+
+/// The network of links between terminals, without what does not matter.
+pub(super) fn network(window: &Window, terminals: &[usize], links: &[Link], pruning: Pruning) -> Network {
     let mut neighbors: BTreeMap<usize, BTreeSet<usize>> = BTreeMap::new();
     for pair in links.iter().flat_map(|link| link.path.windows(2)).filter(|pair| pair[0] != pair[1]) {
         neighbors.entry(pair[0]).or_default().insert(pair[1]);
@@ -57,7 +79,7 @@ pub(super) fn network(window: &Window, terminals: &[usize], links: &[Link], shor
         }
     }
     let mut network = Network { ways_at: vec![Vec::new(); nodes.len()], nodes, ways };
-    while network.contract(terminals.len(), shortest) {}
+    while network.contract(pruning) || network.cut_spur(pruning) || network.dissolve(pruning) {}
     for (number, way) in network.ways.iter().enumerate() {
         let [from, to] = way.ends;
         network.ways_at[from].push(number);
@@ -69,9 +91,39 @@ pub(super) fn network(window: &Window, terminals: &[usize], links: &[Link], shor
 }
 
 impl Network {
-    /// Makes one of two branches that are nearer than `shortest` cells; whether there were any.
-    fn contract(&mut self, terminals: usize, shortest: f64) -> bool {
-        let is_short = |way: &Stretch| way.length < shortest && way.ends.iter().all(|&end| end >= terminals);
+    /// Takes out a short way from a branch to nowhere; whether there was any.
+    fn cut_spur(&mut self, Pruning { fixed, arm, .. }: Pruning) -> bool {
+        let degree =
+            |node: usize| self.ways.iter().flat_map(|way| way.ends).filter(|&end| end == node).count();
+        let is_spur =
+            |way: &Stretch| way.length < arm && way.ends.iter().any(|&end| end >= fixed && degree(end) == 1);
+        let spur = self.ways.iter().position(is_spur);
+        spur.map(|spur| self.ways.swap_remove(spur)).is_some()
+    }
+
+    /// Makes one way of two that meet where nothing else does; whether there were any.
+    fn dissolve(&mut self, Pruning { fixed, .. }: Pruning) -> bool {
+        for node in fixed..self.nodes.len() {
+            let own: Vec<usize> =
+                (0..self.ways.len()).filter(|&way| self.ways[way].ends.contains(&node)).collect();
+            let [first, second] = own[..] else { continue };
+            if [first, second].iter().any(|&way| self.ways[way].ends == [node, node]) {
+                continue;
+            }
+            let after = self.ways.swap_remove(second).from(node);
+            let before = self.ways.swap_remove(first).from(node);
+            let mut path: Vec<usize> = before.path.into_iter().rev().collect();
+            path.extend(after.path.into_iter().skip(1));
+            let length = before.length + after.length;
+            self.ways.push(Stretch { ends: [before.ends[1], after.ends[1]], path, length });
+            return true;
+        }
+        false
+    }
+
+    /// Makes one of two branches that are near to one another; whether there were any.
+    fn contract(&mut self, Pruning { fixed, shortest, .. }: Pruning) -> bool {
+        let is_short = |way: &Stretch| way.length < shortest && way.ends.iter().all(|&end| end >= fixed);
         let Some(at) = self.ways.iter().position(is_short) else { return false };
         let gone = self.ways.swap_remove(at);
         let [kept, lost] = gone.ends;

@@ -19,6 +19,8 @@ pub struct RoadmapOptions {
     pub detour: f64,
     /// Where ways part in a corridor is a junction if they lead on by this many widths of the corridor. Default: 2.
     pub arm: f64,
+    /// The middle of a corridor is where obstacles are at least this part of half its width away. Default: 0.7.
+    pub middle: f64,
     /// Lines are straightened as long as they move by no more than this. Default: 0.1 m.
     pub straighten: f64,
     /// Which gateways of a place continue one another.
@@ -33,6 +35,7 @@ impl Default for RoadmapOptions {
             comfort: 1.5,
             detour: 1.25,
             arm: 2.0,
+            middle: 0.7,
             straighten: 0.1,
             place: PlaceOptions::default(),
         }

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use super::line::{least_clearance, straightened};
 use super::links::links;
-use super::network::{Network, Stretch, network};
+use super::network::{Network, Pruning, Stretch, network};
 use super::window::{Bounds, Window};
 use super::{RegionPlace, RoadNode, RoadNodeKind, RoadNodeNumber, Roadmap, RoadmapOptions, Way};
 use crate::distance::DistanceField;
@@ -60,13 +60,20 @@ pub(super) fn add_region(
     let Some(middle) = window.middle(options.comfort) else { return RegionPart::default() };
     terminals.push(middle);
     let cell = map.lattice().resolution();
-    let links = links(&window, &terminals, options.comfort, options.detour);
-    let network = network(&window, &terminals, &links, 2.0 * options.radius / cell);
     let about = map.region(region);
+    let fixed = terminals.len();
+    let arm = options.arm * about.width / cell;
+    if about.kind == RegionKind::Corridor {
+        let least = (options.middle * about.width / 2.0) as f32;
+        terminals.extend(window.waypoints(&terminals, arm as usize, least));
+    }
+    let links = links(&window, &terminals, options.comfort, options.detour);
+    let pruning = Pruning { fixed, shortest: 2.0 * options.radius / cell, arm };
+    let network = network(&window, &terminals, &links, pruning);
     let spots = match about.kind {
         RegionKind::Doorway if own.len() > 1 => Vec::new(),
         RegionKind::Corridor => {
-            let junctions = network.junctions(options.arm * about.width / cell);
+            let junctions = network.junctions(arm);
             if junctions.is_empty() { vec![doors.len()] } else { junctions }
         }
         _ => vec![doors.len()],

@@ -118,6 +118,38 @@ impl Window {
         })
     }
 
+    /// Positions as wide as `least` metres, so many that each such position is within `spacing` cells of one of them or
+    /// of one of those given; the widest first.
+    pub(super) fn waypoints(&self, given: &[usize], spacing: usize, least: f32) -> Vec<usize> {
+        let mut is_covered = vec![false; self.len()];
+        given.iter().for_each(|&position| self.cover(position, spacing, &mut is_covered));
+        let mut wide: Vec<usize> =
+            (0..self.len()).filter(|&position| self.clearance[position] >= least).collect();
+        wide.sort_by(|&a, &b| self.clearance[b].total_cmp(&self.clearance[a]).then(a.cmp(&b)));
+        let mut found = Vec::new();
+        for position in wide {
+            if !is_covered[position] {
+                self.cover(position, spacing, &mut is_covered);
+                found.push(position);
+            }
+        }
+        found
+    }
+
+    /// Marks what is within so many steps of a position.
+    fn cover(&self, start: usize, steps: usize, is_covered: &mut [bool]) {
+        let mut is_seen = std::collections::BTreeSet::from([start]);
+        let mut rim = vec![start];
+        for _ in 0..=steps {
+            let mut next = Vec::new();
+            for position in rim {
+                is_covered[position] = true;
+                next.extend(self.around(position).map(|(near, _)| near).filter(|&near| is_seen.insert(near)));
+            }
+            rim = next;
+        }
+    }
+
     /// The widest position of the largest connected part, the one nearest to the middle of it where several are.
     pub(super) fn middle(&self, comfort: f64) -> Option<usize> {
         let largest = self.parts().into_iter().max_by_key(Vec::len)?;
