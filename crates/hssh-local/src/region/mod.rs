@@ -13,6 +13,8 @@ mod options;
 mod outline;
 mod passage;
 mod picture;
+#[cfg(test)]
+mod tests;
 
 use border::{Border, Gap, Pair};
 use flood::{Joining, NO_PIECE, Pieces};

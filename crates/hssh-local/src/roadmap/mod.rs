@@ -14,6 +14,8 @@ mod options;
 mod place;
 mod reach;
 mod region;
+#[cfg(test)]
+mod tests;
 mod window;
 
 use crate::distance::DistanceField;
