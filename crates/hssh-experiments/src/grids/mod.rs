@@ -9,6 +9,7 @@ mod rooms;
 mod segmentation;
 mod speed;
 mod stability;
+mod steadiness;
 
 use std::error::Error;
 
@@ -23,6 +24,7 @@ pub(crate) fn run(flags: &Grids) -> Result<(), Box<dyn Error>> {
     println!("{}", rooms::report(&maps.join("gdc3"))?);
     println!("{}", floor::report(&maps.join("gdc3"))?);
     println!("{}", plans::report(&maps.join("rooms"))?);
+    println!("{}", steadiness::report(&maps.join("rooms"))?);
     println!("{}", aces::report(&flags.data)?);
     println!("{}", stability::report(&flags.data)?);
     println!("{}", speed::report(&maps.join("gdc3"))?);

@@ -11,7 +11,7 @@ use super::segmentation::{Agreement, Rooms};
 use crate::table::aligned;
 
 /// Metres per pixel of all plans.
-const RESOLUTION: f64 = 0.05;
+pub(super) const RESOLUTION: f64 = 0.05;
 /// What the truth is called, and the plan with furniture.
 const TRUTH: &str = "_gt_segmentation.png";
 const FURNISHED: &str = "_furnitures.png";
@@ -62,7 +62,7 @@ fn row(name: String, agreement: &Agreement, places: Places) -> Vec<String> {
 }
 
 /// The plans that have a truth.
-fn names(folder: &Path) -> Result<Vec<String>, Box<dyn Error>> {
+pub(super) fn names(folder: &Path) -> Result<Vec<String>, Box<dyn Error>> {
     let mut names = Vec::new();
     for entry in std::fs::read_dir(folder)? {
         let name = entry?.file_name().to_string_lossy().into_owned();
@@ -73,7 +73,7 @@ fn names(folder: &Path) -> Result<Vec<String>, Box<dyn Error>> {
 }
 
 /// The true rooms: white areas that lines part, however faint.
-pub(super) fn truth(image: &Path) -> Result<Rooms, Box<dyn Error>> {
+fn truth(image: &Path) -> Result<Rooms, Box<dyn Error>> {
     let image = std::fs::canonicalize(image)?;
     let yaml: PathBuf = std::env::temp_dir().join(format!("hssh-rooms-{}.yaml", std::process::id()));
     let text = format!(

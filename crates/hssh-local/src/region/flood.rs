@@ -156,10 +156,26 @@ fn widest_first(field: &DistanceField) -> Vec<u32> {
 pub(super) fn around(lattice: &Lattice, index: usize) -> impl Iterator<Item = usize> + use<> {
     let (width, height) = (lattice.width() as usize, lattice.height() as usize);
     let (column, row) = (index % width, index / width);
-    let rows = row.saturating_sub(1)..=(row + 1).min(height - 1);
-    rows.flat_map(move |near_row| {
-        let columns = column.saturating_sub(1)..=(column + 1).min(width - 1);
-        columns.map(move |near_column| near_row * width + near_column)
-    })
-    .filter(move |&near| near != index)
+    let (has_left, has_right) = (column > 0, column + 1 < width);
+    let mut near = [0; 8];
+    let mut count = 0;
+    let mut add = |is_there: bool, position: usize| {
+        if is_there {
+            near[count] = position;
+            count += 1;
+        }
+    };
+    if row > 0 {
+        add(has_left, index.wrapping_sub(width + 1));
+        add(true, index - width);
+        add(has_right, index + 1 - width);
+    }
+    add(has_left, index.wrapping_sub(1));
+    add(has_right, index + 1);
+    if row + 1 < height {
+        add(has_left, index + width - 1);
+        add(true, index + width);
+        add(has_right, index + width + 1);
+    }
+    near.into_iter().take(count)
 }

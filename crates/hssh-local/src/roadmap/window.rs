@@ -121,30 +121,39 @@ impl Window {
     /// Positions as wide as `least` metres, so many that each such position is within `spacing` cells of one of them or
     /// of one of those given; the widest first.
     pub(super) fn waypoints(&self, given: &[usize], spacing: usize, least: f32) -> Vec<usize> {
-        let mut is_covered = vec![false; self.len()];
-        given.iter().for_each(|&position| self.cover(position, spacing, &mut is_covered));
+        // By position, the last of all that cover it, counted from 1.
+        let mut covered = vec![0; self.len()];
+        let mut count = 0;
+        for &position in given {
+            count += 1;
+            self.cover(position, spacing, count, &mut covered);
+        }
         let mut wide: Vec<usize> =
             (0..self.len()).filter(|&position| self.clearance[position] >= least).collect();
         wide.sort_by(|&a, &b| self.clearance[b].total_cmp(&self.clearance[a]).then(a.cmp(&b)));
         let mut found = Vec::new();
         for position in wide {
-            if !is_covered[position] {
-                self.cover(position, spacing, &mut is_covered);
+            if covered[position] == 0 {
+                count += 1;
+                self.cover(position, spacing, count, &mut covered);
                 found.push(position);
             }
         }
         found
     }
 
-    /// Marks what is within so many steps of a position.
-    fn cover(&self, start: usize, steps: usize, is_covered: &mut [bool]) {
-        let mut is_seen = std::collections::BTreeSet::from([start]);
+    /// Marks what is within so many steps of a position with a number that nothing is marked with yet.
+    fn cover(&self, start: usize, steps: usize, number: u32, covered: &mut [u32]) {
+        covered[start] = number;
         let mut rim = vec![start];
-        for _ in 0..=steps {
+        for _ in 0..steps {
             let mut next = Vec::new();
             for position in rim {
-                is_covered[position] = true;
-                next.extend(self.around(position).map(|(near, _)| near).filter(|&near| is_seen.insert(near)));
+                for (near, _) in self.around(position) {
+                    if std::mem::replace(&mut covered[near], number) != number {
+                        next.push(near);
+                    }
+                }
             }
             rim = next;
         }
