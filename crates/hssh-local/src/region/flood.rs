@@ -113,9 +113,9 @@ pub(super) fn flood(field: &DistanceField, joining: Joining) -> Pieces {
 fn numbered(mut labels: Vec<u32>, mut basins: Basins, joining: Joining) -> Pieces {
     let mut numbers = vec![NO_PIECE; basins.parent.len()];
     let mut widest = Vec::new();
-    for label in 0..basins.parent.len() {
+    for (label, number) in numbers.iter_mut().enumerate() {
         if basins.parent[label] == label as u32 && f64::from(basins.peak[label]) >= joining.least {
-            numbers[label] = widest.len() as u32;
+            *number = widest.len() as u32;
             widest.push(basins.widest[label]);
         }
     }

@@ -2,9 +2,9 @@
 
 use std::f64::consts::FRAC_PI_2;
 
-use super::RegionNumber;
 use super::border::Gap;
 use super::flood::NO_PIECE;
+use super::kind::RegionNumber;
 use crate::distance::DistanceField;
 use crate::place::{Gateway, gateway_at};
 use crate::skeleton::AxisPoint;

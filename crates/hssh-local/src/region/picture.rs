@@ -2,7 +2,8 @@
 
 use png::{BitDepth, ColorType, Compression, Encoder};
 
-use super::{RegionMap, RegionNumber};
+use super::kind::RegionNumber;
+use super::region_map::RegionMap;
 use crate::grid::Cell;
 
 /// The part of the circle of hues from one region to the next: by the golden ratio, neighbors in number are unlike.

@@ -2,31 +2,14 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use hssh_topology::Olp;
 use nalgebra::{Vector2, vector};
 
+use super::graph::{Connection, RoadNodeNumber, Roadmap, Way};
+use super::options::RoadmapOptions;
 use super::region::RegionPart;
-use super::{RoadNodeNumber, Roadmap, RoadmapOptions, Way};
 use crate::place::{Gateway, LocalStar, PlaceNumber};
 use crate::region::{RegionMap, RegionNumber};
 use crate::skeleton::distance;
-
-/// What leads from one place to another without passing a third.
-#[derive(Clone, PartialEq, Debug)]
-pub struct Connection {
-    /// The places with the ends of their stars.
-    pub ends: [(PlaceNumber, Olp); 2],
-    /// The passages on the way, by their indices in [`RegionMap::passages`]: none within a corridor.
-    pub passages: Vec<u32>,
-    /// The ways, by their indices in [`Roadmap::ways`], in the order in which they are driven.
-    pub ways: Vec<u32>,
-    /// The corners of the line from place to place, in metres.
-    pub line: Vec<[f64; 2]>,
-    /// How long it is, in metres.
-    pub length: f64,
-    /// How wide it is at its narrowest, in metres.
-    pub width: f64,
-}
 
 /// A chain of ways from a node, each with whether it is driven from its last end to its first.
 type Chain = Vec<(usize, bool)>;

@@ -4,7 +4,7 @@ use crate::distance::DistanceField;
 use crate::grid::Cell;
 use crate::skeleton::distance;
 
-/// How much farther away than found the nearest obstacle may be, in cells: the check is never too kind.
+/// The clearance is looked at so often in the length of a cell.
 const SAMPLES_PER_CELL: f64 = 2.0;
 
 /// How near obstacles are to a line at its nearest, in metres, from the line to the side of their cells.
@@ -17,10 +17,8 @@ pub(super) fn least_clearance(line: &[[f64; 2]], field: &DistanceField) -> f64 {
             [a[0] + part * (b[0] - a[0]), a[1] + part * (b[1] - a[1])]
         })
     });
-    let all = samples.map(|point| clearance(point, field));
     let ends = line.first().map(|&point| clearance(point, field));
-    // Between two samples an obstacle is nearer by no more than a quarter of the squared step over the distance.
-    all.chain(ends).fold(f64::INFINITY, f64::min)
+    samples.map(|point| clearance(point, field)).chain(ends).fold(f64::INFINITY, f64::min)
 }
 
 /// How far a point is from the sides of the nearest obstacles' cells.

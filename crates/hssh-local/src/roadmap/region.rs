@@ -2,11 +2,12 @@
 
 use std::collections::BTreeMap;
 
+use super::graph::{RegionPlace, RoadNode, RoadNodeKind, RoadNodeNumber, Roadmap, Way};
 use super::line::{least_clearance, straightened};
 use super::links::links;
 use super::network::{Network, Pruning, Stretch, network};
+use super::options::RoadmapOptions;
 use super::window::{Bounds, Window};
-use super::{RegionPlace, RoadNode, RoadNodeKind, RoadNodeNumber, Roadmap, RoadmapOptions, Way};
 use crate::distance::DistanceField;
 use crate::grid::Cell;
 use crate::place::PlaceNumber;

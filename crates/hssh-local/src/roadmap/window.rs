@@ -1,6 +1,6 @@
 //! The cells of one region in a window of their own, as far as a robot fits into them.
 
-use super::RoadmapOptions;
+use super::options::RoadmapOptions;
 use crate::distance::DistanceField;
 use crate::grid::Cell;
 use crate::region::{RegionMap, RegionNumber};
