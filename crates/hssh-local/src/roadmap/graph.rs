@@ -22,7 +22,7 @@ impl RoadNodeNumber {
 pub enum RoadNodeKind {
     /// A place.
     Place(PlaceNumber),
-    /// A passage, by its index in [`RegionMap::passages`].
+    /// A passage, by its index in [`RegionMap::passages`](crate::region::RegionMap::passages).
     Passage(u32),
     /// Nothing but ways that part.
     Branch,
@@ -106,7 +106,7 @@ pub struct RegionPlace {
 pub struct Connection {
     /// The places with the ends of their stars.
     pub ends: [(PlaceNumber, Olp); 2],
-    /// The passages on the way, by their indices in [`RegionMap::passages`]: none within a corridor.
+    /// The passages on the way, by their indices in [`RegionMap::passages`](crate::region::RegionMap::passages): none within a corridor.
     pub passages: Vec<u32>,
     /// The ways, by their indices in [`Roadmap::ways`], in the order in which they are driven.
     pub ways: Vec<u32>,
