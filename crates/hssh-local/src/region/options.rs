@@ -56,14 +56,14 @@ pub struct CutOptions {
 #[derive(Clone, Copy, PartialEq, Debug, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct DoorwayOptions {
-    /// What nothing else says. Default: −5.3.
+    /// What nothing else says. Default: −5.1.
     pub base: f64,
     /// The weight of how narrow the narrower of the two regions is, if it is narrower than
-    /// [`room_width`](Self::room_width): there are no doors between desks. Default: 7.
+    /// [`room_width`](Self::room_width): there are no doors between desks. Default: 6.
     pub room: f64,
     /// A region that is as wide as this may be a room. Default: 1.5 m, four times the mean clearance.
     pub room_width: f64,
-    /// The weight of how much of the line beyond the better end is wall. Default: 4.
+    /// The weight of how much of the line beyond the better end is wall. Default: 3.7.
     pub wall: f64,
     /// The line is followed as far as this. Default: 0.8 m.
     pub beside: f64,
@@ -75,9 +75,9 @@ pub struct DoorwayOptions {
     pub through: f64,
     /// And as far as this to the left and right of its middle. Default: 0.2 m.
     pub half_leaf: f64,
-    /// The weight of each metre that the passage is wider than [`widest_leaf`](Self::widest_leaf). Default: 8.
+    /// The weight of each metre that the passage is wider than [`widest_leaf`](Self::widest_leaf). Default: 8.5.
     pub excess: f64,
-    /// The widest leaf that is usual. Default: 0.9 m.
+    /// The widest leaf that is usual. Default: 0.95 m.
     pub widest_leaf: f64,
 }
 
@@ -131,17 +131,17 @@ impl Default for CutOptions {
 impl Default for DoorwayOptions {
     fn default() -> Self {
         DoorwayOptions {
-            base: -5.3,
-            room: 7.0,
+            base: -5.1,
+            room: 6.0,
             room_width: 1.5,
-            wall: 4.0,
+            wall: 3.7,
             beside: 0.8,
             tolerance: 0.1,
             way: 3.0,
             through: 0.9,
             half_leaf: 0.2,
-            excess: 8.0,
-            widest_leaf: 0.9,
+            excess: 8.5,
+            widest_leaf: 0.95,
         }
     }
 }
