@@ -3,7 +3,7 @@
 use super::merge::Extent;
 use super::options::KindOptions;
 
-/// A region of a map: an index into [`RegionMap::regions`](super::region_map::RegionMap::regions).
+/// A region of a map: an index into its list of regions.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
 pub struct RegionNumber(pub u32);
 
