@@ -34,6 +34,6 @@ mod tree;
 
 pub use drawing::{Bearings, Drawing, DrawingError};
 pub use graph::{EdgeKind, PoseGraphOptions, draw_pose_graph};
-pub use grid::{GridPicture, TOLD_WAY, TRUE_WAY, draw_grid};
+pub use grid::{GridPicture, RegionPicture, TOLD_WAY, TRUE_WAY, draw_grid};
 pub use map::{MapOptions, draw_map, map_to_dot};
 pub use tree::{Fate, SearchTree, TreeError, TreeNode, TreeOptions, draw_tree, tree_to_dot};

@@ -61,6 +61,16 @@ impl DistanceField {
         (nearest != NOWHERE).then(|| self.lattice.cell(nearest as usize))
     }
 
+    /// The squared distance in cells of the cell with an index; without any obstacle, the greatest number.
+    pub(crate) fn squared_at(&self, index: usize) -> u32 {
+        self.squared[index]
+    }
+
+    /// Whether the cell with an index is no obstacle, and there are obstacles.
+    pub(crate) fn is_free_at(&self, index: usize) -> bool {
+        !matches!(self.squared[index], 0 | NOWHERE)
+    }
+
     /// How many metres are free around the middle of a cell: the distance to the middle of the nearest
     /// obstacle less half a cell, 0 in an obstacle, infinite if there is none.
     #[must_use]

@@ -10,6 +10,8 @@ mod local_map;
 mod map_server;
 mod matching;
 mod place;
+mod region;
+mod roadmap;
 mod route;
 mod scan;
 mod skeleton;
@@ -31,6 +33,13 @@ pub use place::{
     DoorOptions, Gateway, GatewayOptions, GridPlace, LocalStar, Neighborhood, NeighborhoodError, OpenEnd,
     PlaceConnection, PlaceGraph, PlaceGraphError, PlaceKind, PlaceNumber, PlaceOptions, Sighting, doors,
     hidden_area, neighborhood, sight,
+};
+pub use region::{
+    CutOptions, DoorwayOptions, KindOptions, Outline, Passage, Region, RegionKind, RegionMap, RegionNumber,
+    RegionOptions,
+};
+pub use roadmap::{
+    Connection, RegionPlace, RoadNode, RoadNodeKind, RoadNodeNumber, Roadmap, RoadmapOptions, Way,
 };
 pub use route::RouteOptions;
 pub use scan::Scan;

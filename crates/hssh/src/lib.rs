@@ -42,6 +42,7 @@
 
 pub mod account;
 pub mod answer;
+pub mod export;
 pub mod kind;
 pub mod pipeline;
 

@@ -6,12 +6,24 @@ use std::fmt::Write;
 use hssh_local::{Gateway, Lattice, LocalStar, OccupancyGrid, Skeleton};
 
 use super::cells::data_uri;
+use crate::svg::escape;
 
 /// The longer side of the picture in pixels.
 const SIZE: f64 = 1200.0;
 
 /// Colors of local paths, in the order of their numbers.
 const LOCAL_PATHS: [&str; 5] = ["#d55e00", "#cc79a7", "#882255", "#332288", "#e69f00"];
+
+/// A region to be drawn.
+#[derive(Clone, PartialEq, Debug, Default)]
+pub struct RegionPicture {
+    /// The rings around it and around its holes, in metres.
+    pub rings: Vec<Vec<[f64; 2]>>,
+    /// Its color, as `#rrggbb`.
+    pub color: String,
+    /// What is written into it.
+    pub name: String,
+}
 
 /// What is drawn over a grid; nothing is drawn of what is left out.
 #[derive(Clone, Debug, Default)]
@@ -24,6 +36,10 @@ pub struct GridPicture<'a> {
     pub places: Vec<([f64; 2], &'a LocalStar)>,
     /// Ways that were travelled, in metres, each with the color of its line.
     pub ways: Vec<(Vec<[f64; 2]>, &'static str)>,
+    /// Regions, under all else.
+    pub regions: Vec<RegionPicture>,
+    /// Places without their stars, in metres, with their numbers.
+    pub dots: Vec<[f64; 2]>,
     /// Where the robot is, in metres.
     pub robot: Option<[f64; 2]>,
 }
@@ -52,6 +68,9 @@ pub fn draw_grid(grid: &OccupancyGrid, picture: &GridPicture<'_>) -> String {
         r#"<image width="{width}" height="{height}" style="image-rendering:pixelated" xlink:href="{}"/>"#,
         data_uri(grid)
     );
+    for region in &picture.regions {
+        canvas.region(region);
+    }
     for edge in picture.skeleton.iter().flat_map(|skeleton| &skeleton.edges) {
         let points = edge.points.iter().map(|point| point.point);
         canvas.polyline(points, "#56b4e9", 1.5);
@@ -64,6 +83,12 @@ pub fn draw_grid(grid: &OccupancyGrid, picture: &GridPicture<'_>) -> String {
     }
     for gateway in picture.constrictions {
         canvas.line(gateway.line, "#009e73", 5.0);
+    }
+    for (number, &dot) in picture.dots.iter().enumerate() {
+        canvas.numbered(dot, number);
+    }
+    for region in picture.regions.iter().filter(|region| !region.name.is_empty()) {
+        canvas.name(region);
     }
     if let Some(robot) = picture.robot {
         canvas.disk(robot, 5.0, "#0072b2");
@@ -137,6 +162,46 @@ impl Canvas {
                 }
             }
         }
+        self.numbered(center, number);
+    }
+
+    /// A region as an area.
+    fn region(&mut self, region: &RegionPicture) {
+        let ring = |ring: &Vec<[f64; 2]>| {
+            let corner = |&point: &[f64; 2]| {
+                let [x, y] = self.at(point);
+                format!("{x:.1} {y:.1}")
+            };
+            format!("M{}Z", ring.iter().map(corner).collect::<Vec<_>>().join("L"))
+        };
+        let outline: String = region.rings.iter().map(ring).collect();
+        let _ = writeln!(
+            self.text,
+            r#"<path fill="{color}" fill-opacity="0.45" fill-rule="evenodd" stroke="{color}" stroke-width="{:.1}" d="{outline}"/>"#,
+            self.unit,
+            color = region.color
+        );
+    }
+
+    /// The name of a region in the middle of the box around it.
+    fn name(&mut self, region: &RegionPicture) {
+        let corners = || region.rings.iter().flatten();
+        let middle = [0, 1].map(|axis| {
+            let least = corners().map(|corner| corner[axis]).fold(f64::INFINITY, f64::min);
+            let greatest = corners().map(|corner| corner[axis]).fold(f64::NEG_INFINITY, f64::max);
+            (least + greatest) / 2.0
+        });
+        let [x, y] = self.at(middle);
+        let _ = writeln!(
+            self.text,
+            r##"<text x="{x:.1}" y="{y:.1}" dy="-0.9em" font-family="sans-serif" font-size="{:.1}" text-anchor="middle" fill="#222222">{}</text>"##,
+            9.0 * self.unit,
+            escape(&region.name)
+        );
+    }
+
+    /// A place with its number.
+    fn numbered(&mut self, center: [f64; 2], number: usize) {
         self.disk(center, 7.0, "#222222");
         let [x, y] = self.at(center);
         let _ = writeln!(

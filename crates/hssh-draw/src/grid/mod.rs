@@ -3,4 +3,4 @@
 mod cells;
 mod figure;
 
-pub use figure::{GridPicture, TOLD_WAY, TRUE_WAY, draw_grid};
+pub use figure::{GridPicture, RegionPicture, TOLD_WAY, TRUE_WAY, draw_grid};

@@ -24,11 +24,17 @@ const CRITERIA: [(f64, f64); 9] = [
     (1.8, 20.0),
 ];
 
+/// A door of the floor.
 #[derive(Deserialize)]
-struct Door {
+pub(super) struct Door {
     name: String,
     door_corner_pt_1: [f64; 2],
     door_corner_pt_2: [f64; 2],
+}
+
+/// The doors of the floor.
+pub(super) fn read(folder: &Path) -> Result<Vec<Door>, Box<dyn Error>> {
+    Ok(serde_saphyr::from_str(&std::fs::read_to_string(folder.join("doors.yaml"))?)?)
 }
 
 impl Door {
@@ -36,10 +42,16 @@ impl Door {
         let [a, b] = [self.door_corner_pt_1, self.door_corner_pt_2];
         [(a[0] + b[0]) / 2.0, (a[1] + b[1]) / 2.0]
     }
+
+    /// Whether a gateway is near to its middle.
+    pub(super) fn is_at(&self, gateway: &Gateway) -> bool {
+        let [dx, dy] = [self.middle()[0] - gateway.position[0], self.middle()[1] - gateway.position[1]];
+        dx.hypot(dy) <= NEAR
+    }
 }
 
 pub(super) fn report(folder: &Path) -> Result<String, Box<dyn Error>> {
-    let doors: Vec<Door> = serde_saphyr::from_str(&std::fs::read_to_string(folder.join("doors.yaml"))?)?;
+    let doors = read(folder)?;
     let grid = read_map(&folder.join("3.yaml"))?;
     let graph = PlaceGraph::new(&grid, &PlaceOptions::default())?;
     let mut gateways = graph.constrictions.clone();
@@ -78,7 +90,7 @@ pub(super) fn report(folder: &Path) -> Result<String, Box<dyn Error>> {
             percent(found_by_any, doors.len()),
         ]);
     }
-    let missed = doors.iter().filter(|door| gateways.iter().all(|gateway| !is_at(door, gateway)));
+    let missed = doors.iter().filter(|door| gateways.iter().all(|gateway| !door.is_at(gateway)));
     let missed: Vec<&str> = missed.map(|door| door.name.as_str()).collect();
     Ok(format!(
         "gdc3: constrictions of the medial axis within {NEAR} m of a door, by how wide they may be and how much they hide\n{}no gateway at: {}\n",
@@ -87,14 +99,9 @@ pub(super) fn report(folder: &Path) -> Result<String, Box<dyn Error>> {
     ))
 }
 
-fn is_at(door: &Door, gateway: &Gateway) -> bool {
-    let [dx, dy] = [door.middle()[0] - gateway.position[0], door.middle()[1] - gateway.position[1]];
-    dx.hypot(dy) <= NEAR
-}
-
 /// How many gateways there are, how many of these are at a door, and how many doors have one.
 fn score(doors: &[Door], gateways: &[Gateway]) -> (usize, usize, usize) {
-    let at_door = gateways.iter().filter(|gateway| doors.iter().any(|door| is_at(door, gateway))).count();
-    let found = doors.iter().filter(|door| gateways.iter().any(|gateway| is_at(door, gateway))).count();
+    let at_door = gateways.iter().filter(|gateway| doors.iter().any(|door| door.is_at(gateway))).count();
+    let found = doors.iter().filter(|door| gateways.iter().any(|gateway| door.is_at(gateway))).count();
     (gateways.len(), at_door, found)
 }

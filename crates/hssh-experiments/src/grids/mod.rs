@@ -3,9 +3,13 @@
 mod aces;
 mod crossing;
 mod doors;
+mod floor;
+mod plans;
 mod rooms;
+mod segmentation;
 mod speed;
 mod stability;
+mod steadiness;
 
 use std::error::Error;
 
@@ -18,6 +22,9 @@ pub(crate) fn run(flags: &Grids) -> Result<(), Box<dyn Error>> {
     println!("{}", crossing::report(&maps.join("evg-thin"))?);
     println!("{}", doors::report(&maps.join("gdc3"))?);
     println!("{}", rooms::report(&maps.join("gdc3"))?);
+    println!("{}", floor::report(&maps.join("gdc3"))?);
+    println!("{}", plans::report(&maps.join("rooms"))?);
+    println!("{}", steadiness::report(&maps.join("rooms"))?);
     println!("{}", aces::report(&flags.data)?);
     println!("{}", stability::report(&flags.data)?);
     println!("{}", speed::report(&maps.join("gdc3"))?);

@@ -4,12 +4,14 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::error::Error;
 use std::path::Path;
 
-use hssh_local::{AxisPoint, PlaceGraph, PlaceOptions, read_map};
+use hssh_local::{Cell, Lattice, PlaceGraph, PlaceOptions, read_map};
 use serde::Deserialize;
 
+/// The rooms of the floor.
 #[derive(Deserialize)]
-struct Rooms {
-    locations: Vec<String>,
+pub(super) struct Rooms {
+    /// Their names.
+    pub(super) locations: Vec<String>,
     /// The outlines in the order of the names: columns and rows from the top, in turn.
     polygons: Vec<Vec<f64>>,
 }
@@ -26,7 +28,8 @@ pub(super) fn report(folder: &Path) -> Result<String, Box<dyn Error>> {
     let with_place: BTreeSet<usize> = graph.places.iter().filter_map(|place| room_of(place.center)).collect();
     let lines = graph.connections.iter().map(|connection| &connection.line);
     let lines = lines.chain(graph.open_ends.iter().map(|open| &open.line));
-    let found: BTreeSet<(usize, usize)> = lines.flat_map(|line| passages(line, room_of)).collect();
+    let lines = lines.map(|line| line.iter().map(|point| point.point));
+    let found: BTreeSet<(usize, usize)> = lines.flat_map(|line| passages(line, &lattice, room_of)).collect();
     let truth = rooms.connections(folder)?;
     let right = found.intersection(&truth).count();
     let reached: BTreeSet<usize> = found.iter().flat_map(|&(a, b)| [a, b]).collect();
@@ -49,25 +52,32 @@ pub(super) fn report(folder: &Path) -> Result<String, Box<dyn Error>> {
     ))
 }
 
-/// The pairs of rooms that a line goes between; stretches outside all rooms are walls' thickness.
-fn passages(line: &[AxisPoint], room_of: impl Fn([f64; 2]) -> Option<usize>) -> Vec<(usize, usize)> {
-    let mut rooms: Vec<usize> = line.iter().filter_map(|point| room_of(point.point)).collect();
+/// The pairs of rooms that a line goes between, looked at from cell to cell; stretches outside all rooms are walls'
+/// thickness.
+pub(super) fn passages(
+    line: impl Iterator<Item = [f64; 2]>,
+    lattice: &Lattice,
+    room_of: impl Fn([f64; 2]) -> Option<usize>,
+) -> Vec<(usize, usize)> {
+    let cells: Vec<Cell> = line.filter_map(|point| lattice.cell_at(point)).collect();
+    let between = cells.windows(2).flat_map(|pair| lattice.line(pair[0], pair[1]));
+    let mut rooms: Vec<usize> = between.filter_map(|cell| room_of(lattice.center(cell))).collect();
     rooms.dedup();
     rooms.windows(2).map(|pair| (pair[0].min(pair[1]), pair[0].max(pair[1]))).collect()
 }
 
 impl Rooms {
-    fn read(folder: &Path) -> Result<Self, Box<dyn Error>> {
+    pub(super) fn read(folder: &Path) -> Result<Self, Box<dyn Error>> {
         Ok(serde_saphyr::from_str(&std::fs::read_to_string(folder.join("locations.yaml"))?)?)
     }
 
     /// The room at a point in columns and rows from the top.
-    fn at(&self, point: [f64; 2]) -> Option<usize> {
+    pub(super) fn at(&self, point: [f64; 2]) -> Option<usize> {
         self.polygons.iter().position(|outline| is_inside(outline, point))
     }
 
     /// The true pairs of connected rooms.
-    fn connections(&self, folder: &Path) -> Result<BTreeSet<(usize, usize)>, Box<dyn Error>> {
+    pub(super) fn connections(&self, folder: &Path) -> Result<BTreeSet<(usize, usize)>, Box<dyn Error>> {
         let yaml = std::fs::read_to_string(folder.join("connectivity.yaml"))?;
         let neighbors: BTreeMap<String, Vec<String>> = serde_saphyr::from_str(&yaml)?;
         let number = |name: &String| self.locations.iter().position(|other| other == name);

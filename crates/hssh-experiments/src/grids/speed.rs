@@ -5,8 +5,8 @@ use std::path::Path;
 use std::time::Instant;
 
 use hssh_local::{
-    DistanceField, FreeSpace, Lattice, Occupancy, OccupancyGrid, PlaceGraph, PlaceOptions, Skeleton,
-    neighborhood, read_map,
+    DistanceField, FreeSpace, Lattice, Occupancy, OccupancyGrid, PlaceGraph, PlaceOptions, RegionMap,
+    RegionOptions, Roadmap, RoadmapOptions, Skeleton, neighborhood, read_map,
 };
 
 /// Runs of each measurement, of which the median counts.
@@ -25,11 +25,15 @@ pub(super) fn report(folder: &Path) -> Result<String, Box<dyn Error>> {
     let free_space = median(|| drop(FreeSpace::new(&large, &parameters.skeleton)));
     let skeleton = median(|| drop(Skeleton::new(&large, &free, &parameters.skeleton)));
     let whole = median(|| drop(PlaceGraph::new(&large, &parameters)));
+    let regions = median(|| drop(RegionMap::new(&large, &RegionOptions::default())));
+    let map = RegionMap::new(&large, &RegionOptions::default())?;
+    let roadmap = median(|| drop(Roadmap::new(&large, &map, &RoadmapOptions::default())));
     let window = floor.window([-13.6, -11.8], 10.0).ok_or("gdc3: no window")?;
     let local = median(|| drop(neighborhood(&window, [-13.6, -11.8], &parameters)));
     Ok(format!(
         "speed, median of {RUNS}, on {SIDE} × {SIDE} cells (4.2 megapixels, gdc3 repeated): distance transform {distance:.0} ms, \
-         free space {free_space:.0} ms, medial axis with graph {skeleton:.0} ms, all places {whole:.0} ms; \
+         free space {free_space:.0} ms, medial axis with graph {skeleton:.0} ms, all places {whole:.0} ms, \
+         regions {regions:.0} ms, roadmap {roadmap:.0} ms; \
          a neighborhood of {} × {} cells {local:.2} ms\n",
         window.lattice().width(),
         window.lattice().height()

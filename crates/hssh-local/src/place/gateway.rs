@@ -36,6 +36,16 @@ impl Gateway {
     }
 }
 
+impl Gateway {
+    /// The same line for somebody who comes the other way.
+    #[must_use]
+    pub fn reversed(&self) -> Self {
+        let bearing = hssh_metrics::wrap_angle(self.bearing + std::f64::consts::PI);
+        let [left, right] = self.line;
+        Gateway { bearing, line: [right, left], ..*self }
+    }
+}
+
 /// The position of a place's gateway in a way out: of the points in `range`, the first that is about as narrow as
 /// the narrowest.
 pub(super) fn gateway_position(way: &[AxisPoint], range: Range<usize>, options: &GatewayOptions) -> usize {
@@ -81,7 +91,7 @@ pub(super) fn bearing(way: &[AxisPoint], along: &[f64], at: usize, options: &Gat
 }
 
 /// The gateway across the middle line of a way at one of its points, leaving with `bearing`.
-pub(super) fn gateway_at(at: &AxisPoint, bearing: f64, field: &DistanceField) -> Gateway {
+pub(crate) fn gateway_at(at: &AxisPoint, bearing: f64, field: &DistanceField) -> Gateway {
     let [left, right] = sides(at, bearing, field);
     let across = [left[0] - right[0], left[1] - right[1]];
     let between = across[0].hypot(across[1]);

@@ -22,6 +22,7 @@ mod star;
 
 pub use door::{doors, hidden_area};
 pub use gateway::Gateway;
+pub(crate) use gateway::gateway_at;
 pub use graph::{
     GridPlace, Neighborhood, NeighborhoodError, OpenEnd, PlaceConnection, PlaceGraph, PlaceGraphError,
     PlaceNumber, neighborhood,

@@ -3,14 +3,21 @@
 
 mod contents;
 mod drive;
+mod names;
 mod places;
 mod pose_graph;
+mod regions;
+mod roadmap;
 mod survey;
 
 pub use contents::{CausalContents, ContentsAccount, SchemaContents, StarTypeContents};
 pub use drive::{DriveAccount, DrivePlace, DriveStop};
+pub use names::{NamesError, PointName};
 pub use places::{
-    ConstrictionAccount, GatewayAccount, GridSize, PlaceAccount, PlacesAccount, StarEndAccount,
+    ConnectionAccount, ConstrictionAccount, GatewayAccount, GridSize, PlaceAccount, PlacesAccount,
+    StarEndAccount,
 };
 pub use pose_graph::{JudgedEdge, LabeledPoint, LabeledPose, PoseGraphAccount, SkippedRecord};
+pub use regions::{PassageAccount, RegionAccount};
+pub use roadmap::{RoadNodeAccount, RoadmapAccount, WayAccount};
 pub use survey::{SurveyAccount, SurveyedEnd, SurveyedTravel, SurveyedVisit};

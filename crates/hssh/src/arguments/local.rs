@@ -2,9 +2,9 @@
 
 use std::path::PathBuf;
 
-use clap::Args;
+use clap::{Args, ValueEnum};
 use hssh::pipeline::PlaceChoice;
-use hssh_local::{PlaceOptions, UnknownSpace};
+use hssh_local::{PlaceOptions, RegionOptions, RoadmapOptions, UnknownSpace};
 
 #[derive(Debug, Args)]
 pub(crate) struct ExploreArguments {
@@ -48,7 +48,7 @@ pub(crate) struct SimulateArguments {
     /// Where to start, in metres in the frame of the map, such as `--start=-1.5,20`; in a place if not given.
     #[arg(long, value_name = "X,Y", value_parser = point, allow_hyphen_values = true)]
     pub(crate) start: Option<[f64; 2]>,
-    /// Visit these places in turn, by the numbers that `hssh stars` gives them, such as `--visit 0,4,1`; if not
+    /// Visit these places in turn, by the numbers that `hssh stars --detail` gives them, such as `--visit 0,4,1`; if not
     /// given, every corridor is travelled once.
     #[arg(long, value_name = "PLACES", value_delimiter = ',')]
     pub(crate) visit: Vec<u32>,
@@ -84,6 +84,20 @@ pub(crate) struct StarsArguments {
     /// Unknown cells are free, as in floor plans that only have walls.
     #[arg(long)]
     pub(crate) unknown_is_free: bool,
+    /// All places of the medial axis instead of one for each region and each junction of a corridor.
+    #[arg(long)]
+    pub(crate) detail: bool,
+    /// The radius of the robot that drives by the map, in metres.
+    #[arg(long, value_name = "METRES", default_value_t = 0.25, value_parser = length)]
+    pub(crate) radius: f64,
+    /// Names of regions: a text file with a line `x,y,name` for a point in each, in metres.
+    #[arg(long, value_name = "FILE")]
+    pub(crate) names: Option<PathBuf>,
+    /// Write the map as another program reads it, such as `--export nav2=graph.geojson`; may be given several times.
+    /// nav2: graph of its Route Server; open-rmf: navigation graph; tmap: map of topological_navigation; osmag: areas
+    /// and passages; regions: GeoJSON polygons; labels: PNG with a color for each region.
+    #[arg(long, value_name = "KIND=FILE", value_parser = export)]
+    pub(crate) export: Vec<(ExportKind, PathBuf)>,
     /// Print one JSON object.
     #[arg(long)]
     pub(crate) json: bool,
@@ -92,10 +106,38 @@ pub(crate) struct StarsArguments {
     pub(crate) svg: Option<PathBuf>,
 }
 
+/// For which program a map is written.
+#[derive(Clone, Copy, PartialEq, Eq, Debug, ValueEnum)]
+pub(crate) enum ExportKind {
+    Nav2,
+    OpenRmf,
+    Tmap,
+    #[value(name = "osmag")]
+    OsmAg,
+    Regions,
+    Labels,
+}
+
 impl StarsArguments {
     pub(crate) fn parameters(&self) -> PlaceOptions {
-        let unknown = if self.unknown_is_free { UnknownSpace::Free } else { UnknownSpace::Wall };
-        self.places.choice().in_grids(unknown)
+        self.places.choice().in_grids(self.unknown())
+    }
+
+    /// What parts the map into regions.
+    pub(crate) fn region_options(&self) -> RegionOptions {
+        let usual = RegionOptions::default();
+        let narrowest = self.places.narrowest.unwrap_or(usual.narrowest);
+        let furniture = self.places.clutter.unwrap_or(usual.furniture);
+        RegionOptions { unknown: self.unknown(), narrowest, furniture, ..usual }
+    }
+
+    /// What the ways through the map are for.
+    pub(crate) fn roadmap_options(&self) -> RoadmapOptions {
+        RoadmapOptions { unknown: self.unknown(), radius: self.radius, ..RoadmapOptions::default() }
+    }
+
+    fn unknown(&self) -> UnknownSpace {
+        if self.unknown_is_free { UnknownSpace::Free } else { UnknownSpace::Wall }
     }
 }
 
@@ -109,7 +151,7 @@ pub(crate) struct PlaceArguments {
     /// Ways that lead on for less than this many metres are no ways out [default: 1 in grid maps, 8 along logs].
     #[arg(long, value_name = "METRES", value_parser = length)]
     pub(crate) shallowest: Option<f64>,
-    /// Obstacles no larger than this many metres are clutter [default: 0.3].
+    /// Obstacles no larger than this many metres are clutter [default: 0.3; for regions, which furniture does not part, 0.9].
     #[arg(long, value_name = "METRES", value_parser = length)]
     pub(crate) clutter: Option<f64>,
 }
@@ -133,6 +175,16 @@ fn point(text: &str) -> Result<[f64; 2], String> {
     let number = |text: &str| text.trim().parse::<f64>().ok().filter(|number| number.is_finite());
     let coordinates = text.split_once(',').and_then(|(x, y)| number(x).zip(number(y)));
     coordinates.map(|(x, y)| [x, y]).ok_or_else(|| "write two numbers of metres, like 2.5,-1".to_owned())
+}
+
+fn export(text: &str) -> Result<(ExportKind, PathBuf), String> {
+    let kinds = || {
+        let names = ExportKind::value_variants().iter().filter_map(ValueEnum::to_possible_value);
+        names.map(|name| name.get_name().to_owned()).collect::<Vec<_>>().join(", ")
+    };
+    let usage = || format!("write KIND=FILE, where KIND is one of {}", kinds());
+    let (kind, file) = text.split_once('=').filter(|(_, file)| !file.is_empty()).ok_or_else(usage)?;
+    Ok((ExportKind::from_str(kind, false).map_err(|_| usage())?, PathBuf::from(file)))
 }
 
 fn length(text: &str) -> Result<f64, String> {

@@ -10,7 +10,7 @@ use hssh::pipeline::MappingOptions;
 
 use crate::failure::Failure;
 
-pub(crate) use local::{ExploreArguments, PlaceArguments, SimulateArguments, StarsArguments};
+pub(crate) use local::{ExploreArguments, ExportKind, PlaceArguments, SimulateArguments, StarsArguments};
 pub(crate) use search::SearchArguments;
 
 /// Topological maps of places that look alike: all that explain an exploration, ranked and drawn.

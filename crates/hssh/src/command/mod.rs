@@ -3,6 +3,7 @@
 pub(crate) mod check;
 pub(crate) mod explain;
 pub(crate) mod explore;
+mod floor;
 pub(crate) mod graph;
 pub(crate) mod map;
 pub(crate) mod simulate;

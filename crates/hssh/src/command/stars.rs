@@ -1,17 +1,18 @@
-//! `hssh stars`: the places of a grid map with their gateways and stars, and what connects them.
+//! `hssh stars`: the regions and places of a grid map with their gateways and stars, and what connects them.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use hssh::account::{PlaceAccount, PlacesAccount};
 use hssh::kind::FileKind;
 use hssh::pipeline::{MappingOptions, SurveyedLog};
 use hssh_draw::{GridPicture, draw_grid};
 use hssh_local::{
-    DistanceField, DoorOptions, LocalMapOptions, Neighborhood, Occupancy, OccupancyGrid, PlaceGraph,
-    PlaceOptions, Visit, doors, global_map, neighborhood, read_floor_plan,
+    DistanceField, LocalMapOptions, Neighborhood, Occupancy, OccupancyGrid, PlaceOptions, Visit, global_map,
+    neighborhood, read_floor_plan,
 };
 use hssh_metrics::Pose;
 
+use super::floor;
 use crate::arguments::StarsArguments;
 use crate::failure::{Failure, Status};
 use crate::input::{Source, read_grid, surveyed};
@@ -21,11 +22,17 @@ use crate::output::{check_outputs, print, print_json, write_file};
 const MARGIN: f64 = 6.5;
 
 pub(crate) fn run(options: &StarsArguments) -> Result<Status, Failure> {
-    check_outputs(&[&options.map], [options.svg.as_ref()])?;
+    let inputs: Vec<&Path> =
+        std::iter::once(&options.map).chain(&options.names).map(PathBuf::as_path).collect();
+    let exported = options.export.iter().map(|(_, file)| Some(file));
+    check_outputs(&inputs, std::iter::once(options.svg.as_ref()).chain(exported))?;
     let source = Source::open(&options.map)?;
     let is_yaml = options.map.extension().is_some_and(|ending| ending == "yaml" || ending == "yml");
     let grid = match source.kind() {
-        FileKind::LaserLog(_) => return along(options, source),
+        FileKind::LaserLog(_) => {
+            refuse_region_options(options, "a laser log")?;
+            return along(options, source);
+        }
         FileKind::MapDescription => read(&options.map, true, options.resolution)?,
         FileKind::Text | FileKind::Empty if is_yaml => read(&options.map, true, options.resolution)?,
         FileKind::Image(_) => read(&options.map, false, options.resolution)?,
@@ -33,8 +40,11 @@ pub(crate) fn run(options: &StarsArguments) -> Result<Status, Failure> {
     };
     let parameters = options.parameters();
     match options.at {
-        Some(point) => around(&grid, point, &parameters, options),
-        None => everywhere(&grid, &parameters, options),
+        Some(point) => {
+            refuse_region_options(options, "--at, which looks around one point")?;
+            around(&grid, point, &parameters, options)
+        }
+        None => floor::run(&grid, &parameters, options),
     }
 }
 
@@ -53,23 +63,19 @@ fn read(file: &Path, is_yaml: bool, resolution: Option<f64>) -> Result<Occupancy
     }
 }
 
-/// All places of the map.
-fn everywhere(
-    grid: &OccupancyGrid,
-    parameters: &PlaceOptions,
-    options: &StarsArguments,
-) -> Result<Status, Failure> {
-    let graph = PlaceGraph::new(grid, parameters).map_err(|error| failure(&options.map, error))?;
-    let report = PlacesAccount::of_map(&options.map.display().to_string(), &graph, grid);
-    tell(&report, options)?;
-    if let Some(file) = &options.svg {
-        let places = graph.places.iter().map(|place| (place.center, &place.star)).collect();
-        let doors = doors(grid, &graph.constrictions, &DoorOptions::default());
-        let skeleton = Some(&graph.skeleton);
-        let picture = GridPicture { skeleton, places, constrictions: &doors, ..GridPicture::default() };
-        write_file(file, &draw_grid(grid, &picture))?;
+/// Refuses what only the regions of a whole map have.
+fn refuse_region_options(options: &StarsArguments, given: &str) -> Result<(), Failure> {
+    let useless = [
+        (options.detail, "--detail"),
+        (options.names.is_some(), "--names"),
+        (!options.export.is_empty(), "--export"),
+    ];
+    match useless.iter().find(|(is_given, _)| *is_given) {
+        Some((_, option)) => Err(Failure::Usage(format!(
+            "{option} is for the regions of a whole map and does not go with {given}"
+        ))),
+        None => Ok(()),
     }
-    Ok(if report.places.is_empty() { Status::NothingConsistent } else { Status::Found })
 }
 
 /// The places that a robot visited, in the frame of its track.
@@ -129,10 +135,10 @@ fn around(
     Ok(Status::Found)
 }
 
-fn failure(map: &Path, error: impl std::fmt::Display) -> Failure {
+pub(super) fn failure(map: &Path, error: impl std::fmt::Display) -> Failure {
     Failure::Usage(format!("{}: {error}", map.display()))
 }
 
-fn tell(account: &PlacesAccount, options: &StarsArguments) -> Result<(), Failure> {
+pub(super) fn tell(account: &PlacesAccount, options: &StarsArguments) -> Result<(), Failure> {
     if options.json { print_json(account) } else { print(&account.to_string()) }
 }

@@ -85,7 +85,7 @@ impl PlaceGraph {
     pub fn new(grid: &OccupancyGrid, options: &PlaceOptions) -> Result<Self, PlaceGraphError> {
         let free = FreeSpace::new(grid, &options.skeleton);
         if free.is_empty() {
-            return Err(reason(grid, &free, options));
+            return Err(PlaceGraphError::of(grid, &free, options.skeleton.narrowest_passage));
         }
         let skeleton = Skeleton::new(grid, &free, &options.skeleton);
         let candidates = Candidates::new(&skeleton, options);
@@ -164,17 +164,18 @@ impl GridPlace {
     }
 }
 
-/// Why free space is empty.
-fn reason(grid: &OccupancyGrid, free: &FreeSpace, options: &PlaceOptions) -> PlaceGraphError {
-    let cells = grid.cells().len();
-    if grid.count(Occupancy::Unknown) == cells {
-        PlaceGraphError::AllUnknown { cells }
-    } else if grid.count(Occupancy::Free) == 0 {
-        PlaceGraphError::NothingFree { cells }
-    } else if free.field().squared_cells(grid.lattice().cell(0)).is_none() {
-        PlaceGraphError::NoObstacle
-    } else {
-        let narrowest = options.skeleton.narrowest_passage;
-        PlaceGraphError::TooNarrow { narrowest, resolution: grid.lattice().resolution() }
+impl PlaceGraphError {
+    /// Why free space is empty.
+    pub(crate) fn of(grid: &OccupancyGrid, free: &FreeSpace, narrowest: f64) -> Self {
+        let cells = grid.cells().len();
+        if grid.count(Occupancy::Unknown) == cells {
+            PlaceGraphError::AllUnknown { cells }
+        } else if grid.count(Occupancy::Free) == 0 {
+            PlaceGraphError::NothingFree { cells }
+        } else if free.field().squared_cells(grid.lattice().cell(0)).is_none() {
+            PlaceGraphError::NoObstacle
+        } else {
+            PlaceGraphError::TooNarrow { narrowest, resolution: grid.lattice().resolution() }
+        }
     }
 }

@@ -1,0 +1,154 @@
+//! Where pieces touch: the gaps between them, and the walls that they share.
+
+use std::collections::BTreeMap;
+
+use rustc_hash::FxHashSet;
+
+use super::flood::{NO_PIECE, around};
+use crate::distance::DistanceField;
+
+/// A pair of pieces, the one with the lower number first.
+pub(super) type Pair = (u32, u32);
+
+/// What lies between two pieces; lengths in metres.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Border {
+    /// The openings, each a connected part of the line where the pieces touch.
+    pub(super) gaps: Vec<Gap>,
+    /// How much wall has the one on this side and the other on that.
+    pub(super) wall: f64,
+}
+
+/// An opening between two pieces.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Gap {
+    /// The index of the cell in its middle.
+    pub(super) cell: u32,
+    /// How wide it is, in metres.
+    pub(super) width: f64,
+}
+
+impl Border {
+    /// How wide all gaps are together.
+    pub(super) fn open(&self) -> f64 {
+        self.gaps.iter().map(|gap| gap.width).sum()
+    }
+
+    /// How wide the widest gap is.
+    pub(super) fn widest(&self) -> f64 {
+        self.gaps.iter().map(|gap| gap.width).fold(0.0, f64::max)
+    }
+
+    /// Takes in what was another border.
+    pub(super) fn extend(&mut self, other: Border) {
+        self.gaps.extend(other.gaps);
+        self.wall += other.wall;
+    }
+}
+
+/// All borders; walls count as shared up to a thickness.
+pub(super) fn borders(labels: &[u32], field: &DistanceField, thickest: f64) -> BTreeMap<Pair, Border> {
+    let mut borders: BTreeMap<Pair, Border> = BTreeMap::new();
+    let cell = field.lattice().resolution();
+    for (pair, cells) in contacts(labels, field) {
+        let border = borders.entry(pair).or_default();
+        border.gaps = connected(&cells, field)
+            .into_iter()
+            .map(|group| {
+                let middle = *group
+                    .iter()
+                    .max_by_key(|&&index| (field.squared_at(index as usize), std::cmp::Reverse(index)))
+                    .expect("a group has a cell");
+                Gap { cell: middle, width: 2.0 * field.clearance_at(middle as usize) + cell }
+            })
+            .collect();
+    }
+    for (pair, cells) in walls(labels, field, thickest) {
+        if let Some(border) = borders.get_mut(&pair) {
+            border.wall = f64::from(cells) * cell;
+        }
+    }
+    borders
+}
+
+fn pair(a: u32, b: u32) -> Pair {
+    (a.min(b), a.max(b))
+}
+
+/// For each pair of pieces that touch, the cells of the one with the lower number that touch the other.
+fn contacts(labels: &[u32], field: &DistanceField) -> BTreeMap<Pair, Vec<u32>> {
+    let lattice = field.lattice();
+    let width = lattice.width() as usize;
+    let mut contacts: BTreeMap<Pair, Vec<u32>> = BTreeMap::new();
+    let mut touch = |here: usize, there: usize| {
+        let (a, b) = (labels[here], labels[there]);
+        if a != b && a != NO_PIECE && b != NO_PIECE {
+            let cells = contacts.entry(pair(a, b)).or_default();
+            cells.push(if a < b { here } else { there } as u32);
+        }
+    };
+    for index in 0..labels.len() {
+        let (has_right, has_up) = ((index + 1) % width > 0, index + width < labels.len());
+        if has_right {
+            touch(index, index + 1);
+        }
+        if has_up {
+            touch(index, index + width);
+        }
+        if has_right && has_up {
+            touch(index, index + width + 1);
+            touch(index + 1, index + width);
+        }
+    }
+    contacts
+}
+
+/// The groups of cells that touch one another.
+fn connected(cells: &[u32], field: &DistanceField) -> Vec<Vec<u32>> {
+    let mut rest: FxHashSet<u32> = cells.iter().copied().collect();
+    let mut groups = Vec::new();
+    for &start in cells {
+        if !rest.remove(&start) {
+            continue;
+        }
+        let mut group = vec![start];
+        let mut at = 0;
+        while at < group.len() {
+            for near in around(field.lattice(), group[at] as usize) {
+                if rest.remove(&(near as u32)) {
+                    group.push(near as u32);
+                }
+            }
+            at += 1;
+        }
+        groups.push(group);
+    }
+    groups
+}
+
+/// How many cells along rows and columns pairs of pieces share walls, up to a thickness in metres.
+fn walls(labels: &[u32], field: &DistanceField, thickest: f64) -> BTreeMap<Pair, u32> {
+    let lattice = field.lattice();
+    let (width, height) = (lattice.width() as usize, lattice.height() as usize);
+    let most = (thickest / lattice.resolution()).round() as usize;
+    let mut walls = BTreeMap::new();
+    let mut across = |start: usize, step: usize, length: usize| {
+        let mut last: Option<(usize, u32)> = None;
+        for position in 0..length {
+            let label = labels[start + position * step];
+            if label == NO_PIECE {
+                continue;
+            }
+            if let Some((before, other)) = last
+                && other != label
+                && (2..=most + 1).contains(&(position - before))
+            {
+                *walls.entry(pair(label, other)).or_default() += 1;
+            }
+            last = Some((position, label));
+        }
+    };
+    (0..height).for_each(|row| across(row * width, 1, width));
+    (0..width).for_each(|column| across(column, width, height));
+    walls
+}

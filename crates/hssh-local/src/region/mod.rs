@@ -1,0 +1,25 @@
+//! Regions: free space parted into rooms, corridors and halls, with the passages between them (section 2.1.3).
+//!
+//! What is drawn or was seen is first [settled](ground): the gray rims of walls are walls, and what stands free and is
+//! small is furniture. Then free space is [flooded](flood) into pieces that are parted by every constriction, and the
+//! pieces are [merged](merge) again where a cut is not worth it, by one measure of [all that lies between](border).
+
+mod border;
+mod door;
+mod flood;
+mod ground;
+mod kind;
+mod merge;
+mod options;
+mod outline;
+mod passage;
+mod picture;
+mod region_map;
+#[cfg(test)]
+mod tests;
+
+pub use kind::{Region, RegionKind, RegionNumber};
+pub use options::{CutOptions, DoorwayOptions, KindOptions, RegionOptions};
+pub use outline::Outline;
+pub use passage::Passage;
+pub use region_map::RegionMap;

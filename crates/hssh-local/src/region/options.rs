@@ -1,0 +1,153 @@
+//! What parts free space into regions, and what the regions are.
+
+use serde::{Deserialize, Serialize};
+
+use crate::skeleton::UnknownSpace;
+
+/// How regions are found; lengths in metres, areas in square metres.
+#[derive(Clone, Copy, PartialEq, Debug, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct RegionOptions {
+    /// What unknown cells are. Default: walls.
+    pub unknown: UnknownSpace,
+    /// Unknown space thinner than this, between what is known, is the edge of a wall. Default: 0.3 m.
+    pub rim: f64,
+    /// What stands free and is no longer and no wider than this is furniture: it parts no rooms. Default: 0.9 m.
+    pub furniture: f64,
+    /// Gaps narrower than this join nothing. Default: 0.6 m.
+    pub narrowest: f64,
+    /// Space that is at least this part as wide as the narrower of the two spaces it lies between is no constriction.
+    /// Default: 0.9.
+    pub as_wide: f64,
+    /// Two pieces share a wall where it is no thicker than this. Default: 0.5 m.
+    pub thickest_wall: f64,
+    /// What a cut costs and is worth.
+    pub cut: CutOptions,
+    /// What makes a passage a door.
+    pub door: DoorwayOptions,
+    /// What kinds of regions there are.
+    pub kind: KindOptions,
+}
+
+/// When two pieces of free space are two regions: the odds for it are a product of powers of what is measured.
+#[derive(Clone, Copy, PartialEq, Debug, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct CutOptions {
+    /// The logarithm of the odds of an opening without walls beside it, as wide as the space it opens to.
+    /// Default: −0.1.
+    pub base: f64,
+    /// The power of the part of the border that is wall. Default: 2.5.
+    pub walled: f64,
+    /// The power of how much narrower the opening is than the space on its narrower side. Default: 1.0.
+    pub narrow: f64,
+    /// The power by which the area of the smaller piece counts if it is smaller than [`room`](Self::room): niches
+    /// and gaps between furniture are no rooms. Default: 0.5.
+    pub small: f64,
+    /// The area from which on a piece is as good as a room. Default: 5 m².
+    pub room: f64,
+    /// The power by which the width of the narrower piece counts if it is narrower than
+    /// [`room_width`](Self::room_width). Default: 1.2.
+    pub slender: f64,
+    /// The width from which on a piece is as good as a room. Default: 1.5 m, four times the mean clearance.
+    pub room_width: f64,
+}
+
+/// How probably a passage has a door: the logarithm of the odds is a sum of what is measured, each times a weight.
+#[derive(Clone, Copy, PartialEq, Debug, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct DoorwayOptions {
+    /// What nothing else says. Default: −5.1.
+    pub base: f64,
+    /// The weight of how narrow the narrower of the two regions is, if it is narrower than
+    /// [`room_width`](Self::room_width): there are no doors between desks. Default: 6.
+    pub room: f64,
+    /// A region that is as wide as this may be a room. Default: 1.5 m, four times the mean clearance.
+    pub room_width: f64,
+    /// The weight of how much of the line beyond the better end is wall. Default: 3.7.
+    pub wall: f64,
+    /// The line is followed as far as this. Default: 0.8 m.
+    pub beside: f64,
+    /// The wall may be off the line by this. Default: 0.1 m.
+    pub tolerance: f64,
+    /// The weight of how free the way through is. Default: 3.
+    pub way: f64,
+    /// The way is looked at as far as this to both sides. Default: 0.9 m.
+    pub through: f64,
+    /// And as far as this to the left and right of its middle. Default: 0.2 m.
+    pub half_leaf: f64,
+    /// The weight of each metre that the passage is wider than [`widest_leaf`](Self::widest_leaf). Default: 8.5.
+    pub excess: f64,
+    /// The widest leaf that is usual. Default: 0.95 m.
+    pub widest_leaf: f64,
+}
+
+/// What tells the kinds of regions apart.
+#[derive(Clone, Copy, PartialEq, Debug, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct KindOptions {
+    /// A doorway is no larger than this. Default: 2 m².
+    pub doorway: f64,
+    /// A corridor is this many times as long as it is wide, at least. Default: 4.
+    pub elongation: f64,
+    /// A corridor is no wider than this. Default: 4 m.
+    pub widest_corridor: f64,
+    /// A hall is as large as this, at least. Default: 80 m².
+    pub hall: f64,
+    /// A region without any way out is one if it is as wide as this: what is narrower is the inside of a thing.
+    /// Default: 1.2 m.
+    pub narrowest_closed: f64,
+}
+
+impl Default for RegionOptions {
+    fn default() -> Self {
+        RegionOptions {
+            unknown: UnknownSpace::Wall,
+            rim: 0.3,
+            furniture: 0.9,
+            narrowest: 0.6,
+            as_wide: 0.9,
+            thickest_wall: 0.5,
+            cut: CutOptions::default(),
+            door: DoorwayOptions::default(),
+            kind: KindOptions::default(),
+        }
+    }
+}
+
+impl Default for CutOptions {
+    fn default() -> Self {
+        CutOptions {
+            base: -0.1,
+            walled: 2.5,
+            narrow: 1.0,
+            small: 0.5,
+            room: 5.0,
+            slender: 1.2,
+            room_width: 1.5,
+        }
+    }
+}
+
+impl Default for DoorwayOptions {
+    fn default() -> Self {
+        DoorwayOptions {
+            base: -5.1,
+            room: 6.0,
+            room_width: 1.5,
+            wall: 3.7,
+            beside: 0.8,
+            tolerance: 0.1,
+            way: 3.0,
+            through: 0.9,
+            half_leaf: 0.2,
+            excess: 8.5,
+            widest_leaf: 0.95,
+        }
+    }
+}
+
+impl Default for KindOptions {
+    fn default() -> Self {
+        KindOptions { doorway: 2.0, elongation: 4.0, widest_corridor: 4.0, hall: 80.0, narrowest_closed: 1.2 }
+    }
+}

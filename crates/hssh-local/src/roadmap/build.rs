@@ -1,0 +1,42 @@
+//! The roadmap of a grid: all steps from its regions to it.
+
+use super::graph::{RoadNode, RoadNodeKind, RoadNodeNumber, Roadmap};
+use super::options::RoadmapOptions;
+use super::{connection, region, window};
+use crate::distance::DistanceField;
+use crate::grid::{Occupancy, OccupancyGrid};
+use crate::region::{RegionMap, RegionNumber};
+use crate::skeleton::UnknownSpace;
+
+impl Roadmap {
+    /// The roadmap of a grid with its regions.
+    #[must_use]
+    pub fn new(grid: &OccupancyGrid, map: &RegionMap, options: &RoadmapOptions) -> Self {
+        let is_obstacle = |index: usize| match grid.cells()[index] {
+            Occupancy::Free => false,
+            Occupancy::Occupied => true,
+            Occupancy::Unknown => options.unknown == UnknownSpace::Wall,
+        };
+        let field = DistanceField::new(*grid.lattice(), is_obstacle);
+        let exits = region::exits(map, &field, options);
+        let bounds = window::bounds(map);
+        let mut roadmap =
+            Roadmap { nodes: Vec::new(), ways: Vec::new(), places: Vec::new(), connections: Vec::new() };
+        let passages: Vec<Option<RoadNodeNumber>> = (0..map.passages.len())
+            .map(|passage| {
+                let position = grid.lattice().center(exits[passage]?);
+                let region = map.passages[passage].regions[0];
+                Some(roadmap.add(RoadNode { kind: RoadNodeKind::Passage(passage as u32), region, position }))
+            })
+            .collect();
+        let parts: Vec<region::RegionPart> = (0..map.regions.len() as u32)
+            .map(|number| {
+                let region = RegionNumber(number);
+                let ground = region::Ground { map, field: &field, exits: &exits, passages: &passages };
+                region::add_region(&mut roadmap, &ground, region, bounds[region.index()], options)
+            })
+            .collect();
+        connection::connect(&mut roadmap, map, &parts, options);
+        roadmap
+    }
+}

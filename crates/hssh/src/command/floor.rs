@@ -1,0 +1,116 @@
+//! The regions of a grid map, its places and ways, and the files that are made of them.
+
+use std::path::Path;
+
+use hssh::account::{PlacesAccount, PointName};
+use hssh::export::{nav2_graph, open_rmf_graph, osm_ag, regions_geojson, topological_map};
+use hssh_draw::{GridPicture, RegionPicture, draw_grid};
+use hssh_local::{DoorOptions, OccupancyGrid, PlaceGraph, PlaceOptions, RegionMap, Roadmap, doors};
+
+use super::stars::{failure, tell};
+use crate::arguments::{ExportKind, StarsArguments};
+use crate::failure::{Failure, Status};
+use crate::output::{write_bytes, write_file};
+use crate::terminal::say;
+
+/// The color of a way.
+const WAY: &str = "#0072b2";
+
+pub(super) fn run(
+    grid: &OccupancyGrid,
+    parameters: &PlaceOptions,
+    options: &StarsArguments,
+) -> Result<Status, Failure> {
+    let map =
+        RegionMap::new(grid, &options.region_options()).map_err(|error| failure(&options.map, error))?;
+    let roadmap = Roadmap::new(grid, &map, &options.roadmap_options());
+    let graph = match options.detail {
+        true => Some(PlaceGraph::new(grid, parameters).map_err(|error| failure(&options.map, error))?),
+        false => None,
+    };
+    let name = options.map.display().to_string();
+    let mut account = match &graph {
+        Some(graph) => PlacesAccount::of_axis(&name, &map, &roadmap, graph, grid),
+        None => PlacesAccount::of_regions(&name, &map, &roadmap, options.radius),
+    };
+    if let Some(file) = &options.names {
+        name_regions(&mut account, &map, file)?;
+    }
+    tell(&account, options)?;
+    if let Some(file) = &options.svg {
+        write_file(file, &picture(grid, &map, &roadmap, graph.as_ref(), &account))?;
+    }
+    for (kind, file) in &options.export {
+        export(*kind, file, &map, &account)?;
+    }
+    Ok(if account.places.is_empty() { Status::NothingConsistent } else { Status::Found })
+}
+
+/// Gives the regions the names that stand in a file; a point that is in none is told on standard error.
+fn name_regions(account: &mut PlacesAccount, map: &RegionMap, file: &Path) -> Result<(), Failure> {
+    let text =
+        std::fs::read_to_string(file).map_err(|error| Failure::Read { file: file.to_owned(), error })?;
+    let names =
+        PointName::read_all(&text).map_err(|error| Failure::Usage(format!("{}: {error}", file.display())))?;
+    for PointName { point: [x, y], name } in names {
+        match map.region_at([x, y]) {
+            Some(region) => account.regions[region.index()].name = Some(name),
+            None => {
+                say(&format!("warning: {}: no region is at ({x}, {y}) to be called {name}", file.display()))
+            }
+        }
+    }
+    Ok(())
+}
+
+fn picture(
+    grid: &OccupancyGrid,
+    map: &RegionMap,
+    roadmap: &Roadmap,
+    graph: Option<&PlaceGraph>,
+    account: &PlacesAccount,
+) -> String {
+    let regions = account
+        .regions
+        .iter()
+        .map(|region| RegionPicture {
+            rings: region.outline.iter().chain(&region.holes).cloned().collect(),
+            color: region.color.clone(),
+            name: region.name.clone().unwrap_or_default(),
+        })
+        .collect();
+    let picture = GridPicture { regions, ..GridPicture::default() };
+    match graph {
+        Some(graph) => {
+            let places = graph.places.iter().map(|place| (place.center, &place.star)).collect();
+            let doors = doors(grid, &graph.constrictions, &DoorOptions::default());
+            let skeleton = Some(&graph.skeleton);
+            draw_grid(grid, &GridPicture { skeleton, places, constrictions: &doors, ..picture })
+        }
+        None => {
+            let dots = roadmap.places.iter().map(|place| place.center).collect();
+            let doors: Vec<_> = map
+                .passages
+                .iter()
+                .filter(|passage| passage.is_door())
+                .map(|passage| passage.gateway)
+                .collect();
+            let ways = roadmap.ways.iter().map(|way| (way.line.clone(), WAY)).collect();
+            draw_grid(grid, &GridPicture { dots, constrictions: &doors, ways, ..picture })
+        }
+    }
+}
+
+/// Writes a map for another program.
+fn export(kind: ExportKind, file: &Path, map: &RegionMap, account: &PlacesAccount) -> Result<(), Failure> {
+    let text = match kind {
+        ExportKind::Labels => return write_bytes(file, &map.encode_png()),
+        ExportKind::Nav2 => nav2_graph(account),
+        ExportKind::OpenRmf => open_rmf_graph(account),
+        ExportKind::Tmap => topological_map(account),
+        ExportKind::OsmAg => Ok(osm_ag(account)),
+        ExportKind::Regions => Ok(regions_geojson(account)),
+    };
+    let text = text.map_err(|error| Failure::Usage(format!("cannot write {}: {error}", file.display())))?;
+    write_file(file, &text)
+}
