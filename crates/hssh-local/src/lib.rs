@@ -10,13 +10,14 @@ mod local_map;
 mod map_server;
 mod matching;
 mod place;
+mod progress;
 mod route;
 mod scan;
 mod skeleton;
 mod survey;
 
 pub use carmen::{
-    LaserLog, LaserMessage, LogError, LogReader, LogWarning, LoggedScan, Message, MessageProblem,
+    LaserLog, LaserMessage, LaserMount, LogError, LogReader, LogWarning, LoggedScan, Message, MessageProblem,
 };
 pub use closing::{ClosedTrack, ClosingError, ClosingOptions, Closure, close_loops};
 pub use distance::DistanceField;
@@ -32,6 +33,7 @@ pub use place::{
     PlaceConnection, PlaceGraph, PlaceGraphError, PlaceKind, PlaceNumber, PlaceOptions, Sighting, doors,
     hidden_area, neighborhood, sight,
 };
+pub use progress::Reply;
 pub use route::RouteOptions;
 pub use scan::Scan;
 pub use skeleton::{

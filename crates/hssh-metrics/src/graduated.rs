@@ -53,8 +53,9 @@ pub fn screen_closures(
         let screened = reweighted(graph, &poses, &weights);
         let solution = solve(&screened, options)?;
         rounds += 1;
-        if weights.iter().all(|&weight| weight == 0.0 || weight == 1.0) {
-            let accepted = weights.iter().map(|&weight| weight == 1.0).collect();
+        let is_decided = weights.iter().all(|&weight| weight == 0.0 || weight == 1.0);
+        if is_decided || (options.interrupted)() {
+            let accepted = weights.iter().map(|&weight| weight > 0.5).collect();
             return Ok(Screening { solution, accepted, rounds });
         }
         poses = solution.poses;

@@ -39,7 +39,11 @@ impl Answer {
         let is_serious = |warning: &&AnswerWarning| {
             matches!(
                 warning.kind,
-                WarningKind::ImprobableTravel | WarningKind::Lost | WarningKind::NoOdometry
+                WarningKind::ImprobableTravel
+                    | WarningKind::Lost
+                    | WarningKind::NoOdometry
+                    | WarningKind::LaserView
+                    | WarningKind::SurveyInterrupted
             )
         };
         if let Some(warning) = self.warnings.iter().find(is_serious) {

@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use clap::Args;
-use hssh::pipeline::PlaceChoice;
+use hssh::pipeline::{LaserChoice, PlaceChoice};
 use hssh_local::{PlaceOptions, UnknownSpace};
 
 #[derive(Debug, Args)]
@@ -24,6 +24,8 @@ pub(crate) struct ExploreArguments {
     pub(crate) debug_dir: Option<PathBuf>,
     #[command(flatten)]
     pub(crate) places: PlaceArguments,
+    #[command(flatten)]
+    pub(crate) laser: LaserArguments,
 }
 
 #[derive(Debug, Args)]
@@ -81,6 +83,8 @@ pub(crate) struct StarsArguments {
     pub(crate) at: Option<[f64; 2]>,
     #[command(flatten)]
     pub(crate) places: PlaceArguments,
+    #[command(flatten)]
+    pub(crate) laser: LaserArguments,
     /// Unknown cells are free, as in floor plans that only have walls.
     #[arg(long)]
     pub(crate) unknown_is_free: bool,
@@ -96,6 +100,32 @@ impl StarsArguments {
     pub(crate) fn parameters(&self) -> PlaceOptions {
         let unknown = if self.unknown_is_free { UnknownSpace::Free } else { UnknownSpace::Wall };
         self.places.choice().in_grids(unknown)
+    }
+}
+
+/// How a log's laser looks and sits.
+#[derive(Debug, Args)]
+#[command(next_help_heading = "Laser")]
+pub(crate) struct LaserArguments {
+    /// How wide the laser of a log looks [default: as the log says, else 180].
+    #[arg(long, value_name = "DEGREES", value_parser = view)]
+    pub(crate) fov: Option<f64>,
+    /// Where the laser sits: metres ahead of the robot's axis, metres to its left, degrees turned to the left
+    /// [default: as the log says, else 0,0,0].
+    #[arg(long, value_name = "X,Y,DEGREES", value_parser = mount, allow_hyphen_values = true)]
+    pub(crate) laser_pose: Option<(f64, f64, f64)>,
+}
+
+impl LaserArguments {
+    /// The choice that they make.
+    pub(crate) fn choice(&self) -> LaserChoice {
+        LaserChoice { view: self.fov, pose: self.laser_pose }
+    }
+
+    /// What options become by them.
+    pub(crate) fn apply(&self, laser: &mut LaserChoice) {
+        laser.view = self.fov.or(laser.view);
+        laser.pose = self.laser_pose.or(laser.pose);
     }
 }
 
@@ -133,6 +163,21 @@ fn point(text: &str) -> Result<[f64; 2], String> {
     let number = |text: &str| text.trim().parse::<f64>().ok().filter(|number| number.is_finite());
     let coordinates = text.split_once(',').and_then(|(x, y)| number(x).zip(number(y)));
     coordinates.map(|(x, y)| [x, y]).ok_or_else(|| "write two numbers of metres, like 2.5,-1".to_owned())
+}
+
+fn view(text: &str) -> Result<f64, String> {
+    let degrees = text.parse().ok().filter(|degrees| (1.0..=360.0).contains(degrees));
+    degrees.ok_or_else(|| "write an angle between 1 and 360 degrees, like 240".to_owned())
+}
+
+fn mount(text: &str) -> Result<(f64, f64, f64), String> {
+    let numbers: Option<Vec<f64>> = text.split(',').map(|number| number.trim().parse().ok()).collect();
+    match numbers.as_deref() {
+        Some(&[x, y, turn]) if x.abs() <= 10.0 && y.abs() <= 10.0 && turn.abs() <= 360.0 => Ok((x, y, turn)),
+        _ => {
+            Err("write two numbers of metres, no more than 10, and one of degrees, like 0.35,0,0".to_owned())
+        }
+    }
 }
 
 fn length(text: &str) -> Result<f64, String> {

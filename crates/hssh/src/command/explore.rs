@@ -10,7 +10,8 @@ use crate::input::{failed, read_surveyed, refuse_partial};
 use crate::output::{Written, check_folder, check_outputs, print, print_json, write_file};
 
 pub(crate) fn run(arguments: &ExploreArguments) -> Result<Status, Failure> {
-    let options = MappingOptions { places: arguments.places.choice(), ..MappingOptions::default() };
+    let (laser, places) = (arguments.laser.choice(), arguments.places.choice());
+    let options = MappingOptions { laser, places, ..MappingOptions::default() };
     check_outputs(&[&arguments.log], [arguments.output.as_ref()])?;
     check_folder(arguments.debug_dir.as_ref())?;
     let surveyed = read_surveyed(&arguments.log, &options)?;

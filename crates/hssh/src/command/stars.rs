@@ -75,8 +75,11 @@ fn everywhere(
 /// The places that a robot visited, in the frame of its track.
 fn along(options: &StarsArguments, source: Source) -> Result<Status, Failure> {
     let usual = MappingOptions::default();
-    let SurveyedLog { log, survey } =
-        surveyed(&options.map, source, &MappingOptions { places: options.places.choice(), ..usual })?;
+    let SurveyedLog { log, survey } = surveyed(
+        &options.map,
+        source,
+        &MappingOptions { laser: options.laser.choice(), places: options.places.choice(), ..usual },
+    )?;
     let clearance = |visit: &Visit| {
         let lattice = *visit.grid.lattice();
         let field = DistanceField::new(lattice, |index| visit.grid.cells()[index] == Occupancy::Occupied);

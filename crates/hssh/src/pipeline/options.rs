@@ -7,6 +7,7 @@ use ron::extensions::Extensions;
 use serde::{Deserialize, Serialize};
 
 use super::error::PipelineError;
+use super::laser::LaserChoice;
 use super::places::PlaceChoice;
 
 /// How to come to an answer. Read from a RON file, whatever it leaves out has its default, and what it should not say is
@@ -25,6 +26,8 @@ use super::places::PlaceChoice;
 #[derive(Clone, Copy, PartialEq, Debug, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct MappingOptions {
+    /// How a log's laser looks and sits.
+    pub laser: LaserChoice,
     /// What counts as a place, along logs.
     pub places: PlaceChoice,
     /// How the tree of hypotheses is searched.
@@ -42,6 +45,7 @@ pub struct MappingOptions {
 impl Default for MappingOptions {
     fn default() -> Self {
         MappingOptions {
+            laser: LaserChoice::default(),
             places: PlaceChoice::default(),
             search: SearchChoice::default(),
             axioms: Axioms::default(),
@@ -222,6 +226,8 @@ enum MayBe {
     Zero,
     /// Anything above zero.
     Positive,
+    /// From one degree to a full turn.
+    View,
 }
 
 impl MappingOptions {
@@ -242,11 +248,14 @@ impl MappingOptions {
     /// # Errors
     /// With the first such number.
     pub fn check(&self) -> Result<(), PipelineError> {
-        let MappingOptions { places, posterior, limits, .. } = self;
+        let MappingOptions { laser, places, posterior, limits, .. } = self;
+        let (x, y, turn) = laser.pose.unwrap_or_default();
         let numbers = [
             ("places.narrowest", places.narrowest, MayBe::Zero),
             ("places.shallowest", places.shallowest, MayBe::Zero),
             ("places.clutter", places.clutter, MayBe::Zero),
+            ("laser.view", laser.view, MayBe::View),
+            ("laser.pose", Some(x.abs().max(y.abs()).max(turn.abs())), MayBe::Zero),
             ("posterior.likeness", Some(posterior.likeness), MayBe::Zero),
             ("posterior.area", posterior.area, MayBe::Positive),
             ("posterior.rest", Some(posterior.rest), MayBe::Positive),
@@ -256,6 +265,7 @@ impl MappingOptions {
             let Some(number) = number else { continue };
             let (is_right, what) = match may_be {
                 MayBe::Zero => (number >= 0.0, "finite and not negative"),
+                MayBe::View => ((1.0..=360.0).contains(&number), "an angle between 1 and 360 degrees"),
                 MayBe::Positive => (number > 0.0, "finite and positive"),
             };
             if !is_right || !number.is_finite() {
