@@ -4,6 +4,7 @@ mod description;
 mod error;
 mod image;
 mod read;
+mod turned;
 #[cfg(test)]
 mod tests;
 mod write;
