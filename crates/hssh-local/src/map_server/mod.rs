@@ -4,9 +4,9 @@ mod description;
 mod error;
 mod image;
 mod read;
-mod turned;
 #[cfg(test)]
 mod tests;
+mod turned;
 mod write;
 
 pub use error::MapError;

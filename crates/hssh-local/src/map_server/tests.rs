@@ -130,7 +130,10 @@ fn damaged_images_are_refused() {
     };
     for bytes in [&b"P5\n100 100\n255\nabc"[..], b"", b"hello", b"P2\n2 2\n255\n1 2 3"] {
         let message = refusal(bytes);
-        assert!(message.contains("a.pgm: no readable image, PGM (P2, P5), PNG, BMP, JPEG, TIFF or WebP"), "{message}");
+        assert!(
+            message.contains("a.pgm: no readable image, PGM (P2, P5), PNG, BMP, JPEG, TIFF or WebP"),
+            "{message}"
+        );
     }
     let huge = refusal(b"P5\n4000000000 4000000000\n255\n");
     assert!(huge.contains("a.pgm"), "{huge}");

@@ -8,6 +8,7 @@ use crate::arguments::ExploreArguments;
 use crate::failure::{Failure, Status};
 use crate::input::{failed, read_surveyed, refuse_partial};
 use crate::output::{Written, check_folder, check_outputs, print, print_json, write_file};
+use crate::progress::is_interrupted;
 
 pub(crate) fn run(arguments: &ExploreArguments) -> Result<Status, Failure> {
     let (laser, places) = (arguments.laser.choice(), arguments.places.choice());
@@ -37,5 +38,5 @@ pub(crate) fn run(arguments: &ExploreArguments) -> Result<Status, Failure> {
         written.note(draw_survey(&surveyed.log, &surveyed.survey, folder));
     }
     written.done()?;
-    Ok(Status::Found)
+    Ok(if is_interrupted() { Status::Stopped } else { Status::Found })
 }

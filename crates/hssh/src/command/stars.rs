@@ -16,6 +16,7 @@ use crate::arguments::StarsArguments;
 use crate::failure::{Failure, Status};
 use crate::input::{Source, read_grid, surveyed};
 use crate::output::{check_outputs, print, print_json, write_file};
+use crate::progress::is_interrupted;
 
 /// How far the part of the map that is looked at around one point reaches, in metres, beyond the shallowest way out.
 const MARGIN: f64 = 6.5;
@@ -99,7 +100,7 @@ fn along(options: &StarsArguments, source: Source) -> Result<Status, Failure> {
         let places = survey.visits.iter().map(|visit| (place(visit), &visit.star)).collect();
         write_file(file, &draw_grid(&grid, &GridPicture { places, ..GridPicture::default() }))?;
     }
-    Ok(Status::Found)
+    Ok(if is_interrupted() { Status::Stopped } else { Status::Found })
 }
 
 /// The place around one point.

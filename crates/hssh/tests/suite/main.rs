@@ -8,5 +8,6 @@ mod kinds;
 mod log;
 mod outputs;
 mod program;
+mod signals;
 mod simulate;
 mod stars;
