@@ -43,6 +43,7 @@ impl Answer {
                     | WarningKind::Lost
                     | WarningKind::NoOdometry
                     | WarningKind::LaserView
+                    | WarningKind::Questionable
                     | WarningKind::SurveyInterrupted
             )
         };

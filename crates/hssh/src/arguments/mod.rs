@@ -40,7 +40,7 @@ pub(crate) enum Command {
     /// Check by itself what a proof rests on: a certificate that `map --certificate` wrote.
     Verify(VerifyArguments),
     /// Print the options that --options reads, each with its default.
-    Options,
+    Options(OptionsArguments),
 }
 
 #[derive(Debug, Args)]
@@ -104,6 +104,13 @@ pub(crate) struct MapArguments {
     pub(crate) places: PlaceArguments,
     #[command(flatten)]
     pub(crate) laser: LaserArguments,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct OptionsArguments {
+    /// Print one JSON object.
+    #[arg(long)]
+    pub(crate) json: bool,
 }
 
 #[derive(Debug, Args)]
