@@ -1,8 +1,8 @@
 //! Solvers: exact where the problem is linear, stationary elsewhere, and never silent about what has no answer.
 
 use hssh_metrics::{
-    Edge, GraphError, Information, Method, Options, Pose, PoseGraph, PoseId, SolveError, StopReason,
-    chordal_poses, odometry_poses, relax, solve,
+    Edge, GraphError, Information, Kernel, Method, Options, Pose, PoseGraph, PoseId, SolveError, StopReason,
+    chordal_poses, odometry_poses, relax, screen_closures, solve, solve_robustly,
 };
 use nalgebra::{Matrix3, Vector3};
 use rand::{RngExt, SeedableRng};
