@@ -228,7 +228,7 @@ mod tests {
         assert_eq!(grays(b"P2\n2\n").unwrap_err(), "its header has no height");
         assert_eq!(grays(b"P2 1 1 9 10").unwrap_err(), "a pixel is 10, above the greatest gray value 9");
         assert!(grays(b"P5 1 1 0 ").unwrap_err().contains("must be between 1 and 65535"));
-        assert_eq!(grays(b"P6 1 1 255 abc").unwrap_err(), "it begins like neither");
+        assert_eq!(grays(b"P6 1 1 255 abc").unwrap_err(), "it begins like none of them");
     }
 
     /// White is light and black dark in every kind of PNG, and what is transparent says so.
