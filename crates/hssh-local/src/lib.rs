@@ -1,4 +1,25 @@
 //! Small-scale space: laser logs, occupancy grids, gateways and stars; from a log to an exploration.
+//!
+//! The places of a grid map, here of two corridors that cross:
+//!
+//! ```
+//! use hssh_local::{Lattice, Occupancy, OccupancyGrid, PlaceGraph, PlaceOptions};
+//!
+//! // 2 m wide and 20 m long, in cells of 0.1 m; everything else is wall.
+//! let lattice = Lattice::new(220, 220, 0.1, [0.0, 0.0])?;
+//! let mut grid = OccupancyGrid::filled(lattice, Occupancy::Occupied);
+//! let is_wide = |index: u32| (100..120).contains(&index);
+//! let is_long = |index: u32| (10..210).contains(&index);
+//! for cell in lattice.cells() {
+//!     if is_wide(cell.row) && is_long(cell.column) || is_long(cell.row) && is_wide(cell.column) {
+//!         grid.set(cell, Occupancy::Free);
+//!     }
+//! }
+//! let graph = PlaceGraph::new(&grid, &PlaceOptions::default())?;
+//! let ways: Vec<usize> = graph.places.iter().map(|place| place.star.star.gateways().count()).collect();
+//! assert_eq!((ways.len(), ways.iter().max()), (5, Some(&4))); // the crossing, and four dead ends
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
 
 mod carmen;
 mod closing;
@@ -10,6 +31,7 @@ mod local_map;
 mod map_server;
 mod matching;
 mod place;
+mod progress;
 mod region;
 mod roadmap;
 mod route;
@@ -18,7 +40,7 @@ mod skeleton;
 mod survey;
 
 pub use carmen::{
-    LaserLog, LaserMessage, LogError, LogReader, LogWarning, LoggedScan, Message, MessageProblem,
+    LaserLog, LaserMessage, LaserMount, LogError, LogReader, LogWarning, LoggedScan, Message, MessageProblem,
 };
 pub use closing::{ClosedTrack, ClosingError, ClosingOptions, Closure, close_loops};
 pub use distance::DistanceField;
@@ -34,6 +56,7 @@ pub use place::{
     PlaceConnection, PlaceGraph, PlaceGraphError, PlaceKind, PlaceNumber, PlaceOptions, Sighting, doors,
     hidden_area, neighborhood, sight,
 };
+pub use progress::Reply;
 pub use region::{
     CutOptions, DoorwayOptions, KindOptions, Outline, Passage, Region, RegionKind, RegionMap, RegionNumber,
     RegionOptions,

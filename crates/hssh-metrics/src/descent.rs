@@ -20,6 +20,9 @@ pub(crate) fn linearize_once(graph: &PoseGraph) -> Result<Solution, SolveError> 
 pub(crate) fn gauss_newton(graph: &PoseGraph, options: &Options) -> Result<Solution, SolveError> {
     let mut descent = Descent::begin(graph, LinearizationPoint::Estimate)?;
     while descent.iterations < options.max_iterations {
+        if (options.interrupted)() {
+            return descent.end_here(StopReason::Interrupted);
+        }
         let step = descent.step(0.0)?;
         if descent.is_negligible(&step, options) {
             return Ok(descent.end_converged(step));
@@ -49,6 +52,9 @@ pub(crate) fn levenberg_marquardt(graph: &PoseGraph, options: &Options) -> Resul
 fn damped(mut descent: Descent<'_>, options: &Options) -> Result<Solution, SolveError> {
     let mut damping = 0.0;
     while descent.iterations < options.max_iterations {
+        if (options.interrupted)() {
+            return descent.end_here(StopReason::Interrupted);
+        }
         match descent.step(damping) {
             Ok(step) if damping == 0.0 && descent.is_negligible(&step, options) => {
                 return Ok(descent.end_converged(step));
@@ -71,7 +77,7 @@ const FULL_STEPS: usize = 30;
 pub(crate) fn safeguarded(graph: &PoseGraph, options: &Options) -> Result<Solution, SolveError> {
     let mut descent = Descent::begin(graph, LinearizationPoint::Estimate)?;
     let (mut best, mut lowest) = (descent.poses.clone(), descent.chi2);
-    while descent.iterations < options.max_iterations.min(FULL_STEPS) {
+    while descent.iterations < options.max_iterations.min(FULL_STEPS) && !(options.interrupted)() {
         let Ok(step) = descent.step(0.0) else { break };
         let converged = descent.is_negligible(&step, options);
         if converged && descent.chi2 <= lowest + options.tolerance * (1.0 + lowest) {

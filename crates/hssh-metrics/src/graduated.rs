@@ -2,6 +2,7 @@
 
 use crate::graph::{Edge, PoseGraph};
 use crate::pose::Pose;
+use crate::readmission::{Belief, readmit};
 use crate::robust::{edge_chi2, reweighted};
 use crate::solution::{Options, Solution, SolveError, check};
 use crate::solve::solve;
@@ -27,7 +28,8 @@ pub struct Screening {
 /// fit from those that do not.
 ///
 /// The surrogates begin convex and approach the truncated sum (Yang, Antonante, Tzoumas, Carlone 2020),
-/// beginning with the weights at the poses that the graph holds: dead reckoning, as a rule. The edges that
+/// beginning with the weights at the poses that the graph holds: dead reckoning, as a rule. In the end, suspects that were
+/// refused are believed again where that lowers the sum, as right ones may where a long chain drifts. The edges that
 /// are not suspect have to hold the graph together: an odometry chain does. A `threshold` of 11.34 refuses
 /// one correct measurement in a hundred.
 ///
@@ -53,8 +55,12 @@ pub fn screen_closures(
         let screened = reweighted(graph, &poses, &weights);
         let solution = solve(&screened, options)?;
         rounds += 1;
-        if weights.iter().all(|&weight| weight == 0.0 || weight == 1.0) {
-            let accepted = weights.iter().map(|&weight| weight == 1.0).collect();
+        let is_decided = weights.iter().all(|&weight| weight == 0.0 || weight == 1.0);
+        if is_decided || (options.interrupted)() {
+            let accepted = weights.iter().map(|&weight| weight > 0.5).collect();
+            let mut belief = Belief { accepted, solution };
+            rounds += readmit(graph, &suspects, threshold, &mut belief, options)?;
+            let Belief { accepted, solution } = belief;
             return Ok(Screening { solution, accepted, rounds });
         }
         poses = solution.poses;

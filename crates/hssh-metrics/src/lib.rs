@@ -59,6 +59,7 @@ mod linear;
 mod linearization;
 mod marginals;
 mod pose;
+mod readmission;
 mod relaxation;
 mod robust;
 mod solution;

@@ -6,7 +6,7 @@ use nalgebra::{Matrix3, Vector3};
 use crate::graph::{Edge, PoseGraph, PoseId};
 use crate::linearization::{LinearizationPoint, LinearizedEdge};
 use crate::pose::Pose;
-use crate::solution::{SolveError, check};
+use crate::solution::{Options, SolveError, check};
 
 /// A pose graph relaxed.
 #[derive(Clone, PartialEq, Debug)]
@@ -22,16 +22,18 @@ pub struct Relaxation {
 }
 
 /// Lowers χ² without ever factorizing a large matrix: in each sweep, every free pose in its order makes one
-/// Gauss–Newton step of its own while all others stand still, unless that would raise χ².
+/// Gauss–Newton step of its own while all others stand still, unless that would raise χ². Of the options, the number of
+/// iterations is that of sweeps, and the method does not matter.
 ///
 /// A sweep costs time in proportion to the edges. Errors spread over neighbors soon and around long loops
 /// only slowly, so it is for polishing, for graphs that change a little at a time, and for checking
 /// [`solve`](crate::solve), with which it shares no linear algebra. It has converged when a sweep lowers χ² by less
-/// than `tolerance` · (1 + χ²), which says less about the distance to the minimum than a solver's promise.
+/// than the tolerance · (1 + χ²), which says less about the distance to the minimum than a solver's promise.
 ///
 /// # Errors
 /// As [`solve`](crate::solve).
-pub fn relax(graph: &PoseGraph, max_sweeps: usize, tolerance: f64) -> Result<Relaxation, SolveError> {
+pub fn relax(graph: &PoseGraph, options: &Options) -> Result<Relaxation, SolveError> {
+    let Options { max_iterations: max_sweeps, tolerance, interrupted, .. } = *options;
     check(graph)?;
     let mut incident = vec![Vec::new(); graph.poses().len()];
     for edge in graph.edges() {
@@ -45,6 +47,9 @@ pub fn relax(graph: &PoseGraph, max_sweeps: usize, tolerance: f64) -> Result<Rel
         return Err(SolveError::Overflow);
     }
     for sweep in 1..=max_sweeps {
+        if interrupted() {
+            return Ok(Relaxation { poses, chi2, sweeps: sweep - 1, converged: false });
+        }
         for pose in graph.pose_ids().filter(|&pose| !graph.is_anchored(pose)) {
             relax_pose(pose, &incident[pose.index()], &mut poses);
         }

@@ -85,12 +85,13 @@ pub fn solve_robustly(
     for round in 1..=options.max_iterations {
         let weights = weights_at(&poses);
         let solution = solve(&reweighted(graph, &poses, &weights), options)?;
-        let (converged, lower) = (solution.is_converged(), cost_at(&solution.poses));
+        let lower = cost_at(&solution.poses);
         let finished = cost - lower <= options.tolerance * (1.0 + cost);
+        let converged = finished && solution.is_converged();
         if lower < cost {
             (poses, cost) = (solution.poses, lower);
         }
-        if finished {
+        if finished || (options.interrupted)() {
             let weights = weights_at(&poses);
             return Ok(RobustSolution { poses, cost, weights, rounds: round, converged });
         }

@@ -19,7 +19,7 @@ pub enum Method {
 }
 
 /// What the solver may do.
-#[derive(Clone, Copy, PartialEq, Debug)]
+#[derive(Clone, Copy, Debug)]
 pub struct Options {
     /// How to minimize.
     pub method: Method,
@@ -27,11 +27,13 @@ pub struct Options {
     pub max_iterations: usize,
     /// Converged when the linear model promises a fall of χ² by less than this times (1 + χ²).
     pub tolerance: f64,
+    /// Asked before every linear system whether somebody wants it to stop: it ends with the poses reached then.
+    pub interrupted: fn() -> bool,
 }
 
 impl Default for Options {
     fn default() -> Self {
-        Options { method: Method::default(), max_iterations: 100, tolerance: 1e-9 }
+        Options { method: Method::default(), max_iterations: 100, tolerance: 1e-9, interrupted: || false }
     }
 }
 
@@ -49,6 +51,8 @@ pub enum StopReason {
     Stalled,
     /// A Gauss–Newton step led to numbers that are not finite; the poses are those before it.
     Diverged,
+    /// Somebody asked it to stop; the poses are those reached.
+    Interrupted,
 }
 
 /// A solved pose graph.

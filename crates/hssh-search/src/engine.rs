@@ -14,6 +14,9 @@ use crate::tally::Tally;
 use crate::tree::Tree;
 use crate::visit::MeasurementError;
 
+/// Of the open hypotheses that got farthest, so many are laid out at most to find the best.
+const MOST_SETTLED: usize = 64;
+
 /// How far the sweeps are.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Sweep {
@@ -48,6 +51,8 @@ pub(crate) struct Engine<A: Appraise> {
     pub(crate) frontier: Frontier<A>,
     /// Of breadth-first.
     pub(crate) fringe: Fringe,
+    /// Of breadth-first, if there was no time to look through the fringe: a complete level before it.
+    pub(crate) shown: Option<Fringe>,
     /// Of cyclic best-first.
     pub(crate) sweep: Sweep,
     /// Maps that explain everything, the best first.
@@ -68,6 +73,8 @@ pub(crate) struct Engine<A: Appraise> {
     pub(crate) cursors: Vec<Cursor>,
     /// How many travels the search knows of.
     travels: usize,
+    /// Whether there is a root: a limit may have come before.
+    is_begun: bool,
 }
 
 impl<A: Appraise> Engine<A> {
@@ -76,24 +83,22 @@ impl<A: Appraise> Engine<A> {
     /// # Errors
     /// If a travel cannot be used.
     pub(crate) fn new(
-        mut appraiser: A,
+        appraiser: A,
         order: Order,
         goal: Goal,
         proving: Proving,
         context: Context<'_>,
     ) -> Result<Self, MeasurementError> {
-        let tree = Tree::new();
-        appraiser.observe(context.experience, &tree)?;
-        let root = appraiser.root(context);
         let mut engine = Engine {
             appraiser,
             order,
             goal,
             proving,
-            tree,
+            tree: Tree::new(),
             tally: Tally::new(),
             frontier: Frontier::new(),
             fringe: Fringe::default(),
+            shown: None,
             sweep: Sweep::default(),
             found: Vec::new(),
             rejected: Vec::new(),
@@ -103,28 +108,45 @@ impl<A: Appraise> Engine<A> {
             reach: None,
             bytes: 0,
             cursors: Vec::new(),
-            travels: context.travels(),
+            travels: 0,
+            is_begun: false,
         };
-        engine.frontier.make_room(context.travels());
-        if order != Order::BreadthFirst || A::WEIGHS {
-            engine.push(root);
-        }
+        engine.observe(context)?;
         Ok(engine)
     }
 
+    /// The first hypothesis.
+    fn begin(&mut self, context: Context<'_>) {
+        self.is_begun = true;
+        if self.order != Order::BreadthFirst || A::WEIGHS {
+            self.push(self.appraiser.root(context));
+        }
+    }
+
+    /// Whether there is anything to search.
+    pub(crate) fn is_begun(&self) -> bool {
+        self.is_begun
+    }
+
     /// Takes notice of the travels that are new: what explained everything is open again, and every bound looks
-    /// ahead to them.
+    /// ahead to them. A limit may stop it, and the next call goes on.
     ///
     /// # Errors
     /// If a travel cannot be used; the search is as it was then.
-    pub(crate) fn observe(&mut self, context: Context<'_>) -> Result<(), MeasurementError> {
+    pub(crate) fn observe(&mut self, context: Context<'_>) -> Result<Option<StopReason>, MeasurementError> {
         let before = self.travels;
-        if before == context.travels() {
-            return Ok(());
+        if self.is_begun && before == context.travels() {
+            return Ok(None);
         }
-        self.appraiser.observe(context.experience, &self.tree)?;
+        if let Some(reason) = self.appraiser.observe(context, &self.tree)? {
+            return Ok(Some(reason));
+        }
         self.travels = context.travels();
         self.frontier.make_room(self.travels);
+        if !self.is_begun {
+            self.begin(context);
+            return Ok(None);
+        }
         if !self.found.is_empty() {
             // What explained everything goes first.
             self.sweep = Sweep { from: before, ..Sweep::default() };
@@ -142,7 +164,7 @@ impl<A: Appraise> Engine<A> {
             self.push(leaf);
         }
         self.cursors.push(cursor);
-        Ok(())
+        Ok(None)
     }
 
     /// How many travels the search knows of.
@@ -280,6 +302,45 @@ impl<A: Appraise> Engine<A> {
     pub(crate) fn set_reach(&mut self) {
         let last = self.found.get(self.proving.best.max(1) - 1);
         self.reach = last.map(|found| self.appraiser.reach(found.leaf.key, self.sweep.slack));
+    }
+
+    /// Of breadth-first: the level to be shown.
+    pub(crate) fn level(&self) -> &Fringe {
+        self.shown.as_ref().unwrap_or(&self.fringe)
+    }
+
+    /// The hypotheses that are no maps of everything yet, or maps that were not looked at yet.
+    fn open(&self) -> impl Iterator<Item = &Leaf<A>> {
+        let is_accepted =
+            |leaf: &&Leaf<A>| leaf.depth() < self.travels || self.goal.accepts(leaf.is_closed());
+        self.frontier.leaves().filter(is_accepted)
+    }
+
+    /// How many travels the open hypotheses explain that got farthest.
+    pub(crate) fn deepest(&self) -> Option<usize> {
+        self.open().map(Leaf::depth).max()
+    }
+
+    /// The best one of the open hypotheses that got farthest, settled.
+    pub(crate) fn best_of_deepest(&self, context: Context<'_>) -> Option<Leaf<A>> {
+        let deepest = self.deepest()?;
+        let mut leaves: Vec<&Leaf<A>> = self.open().filter(|leaf| leaf.depth() == deepest).collect();
+        leaves.sort_unstable_by_key(|leaf| (leaf.key, leaf.node));
+        let mut cursor = Cursor::new(context.experience);
+        let mut best: Option<Leaf<A>> = None;
+        for (number, &leaf) in leaves.iter().enumerate() {
+            let is_beaten = best.as_ref().is_some_and(|best| best.key <= leaf.key);
+            if is_beaten || (best.is_some() && number >= MOST_SETTLED) {
+                break;
+            }
+            let mut leaf = leaf.clone();
+            let is_settled = self.appraiser.is_settled(&leaf)
+                || self.appraiser.settle(&mut leaf, &mut cursor, &self.tree, context).is_ok();
+            if is_settled && best.as_ref().is_none_or(|best| leaf.key < best.key) {
+                best = Some(leaf);
+            }
+        }
+        best
     }
 
     /// The least that any map can be worth that was not found; nothing if there is none, or if nothing is known.

@@ -1,6 +1,7 @@
 //! The deepest complete level of a tree, grown all at once (section 2.3.1).
 
 use std::ops::Range;
+use std::time::{Duration, Instant};
 
 use hssh_topology::{Measure, Outcome, Preference, Removals, Step};
 
@@ -16,6 +17,10 @@ const PIECE: u32 = 512;
 
 /// Pieces between two looks at the limits.
 const PIECES_AT_ONCE: usize = 256;
+
+/// How long, and how many pieces at a time, are looked at to say how long a level takes.
+const SAMPLING: Duration = Duration::from_millis(30);
+const PIECES_A_SAMPLE: usize = 8;
 
 /// The deepest complete level of a tree.
 #[derive(Clone, Debug)]
@@ -146,6 +151,42 @@ impl Fringe {
             RankedMap::of(node, &cursor.go_to(node, tree, context.experience).map)
         });
         (counts, ranked)
+    }
+
+    /// The deepest complete level that can be looked through in that time: this one, if it is small enough.
+    pub(crate) fn showable(
+        &self,
+        tree: &Tree,
+        context: Context<'_>,
+        levels: &[LevelCounts],
+        within: Duration,
+    ) -> Fringe {
+        let per_node = self.seconds_per_node(tree, context);
+        let ends = levels.iter().scan(0, |end, level| {
+            *end += level.nodes as u32;
+            Some((*end - level.nodes as u32)..*end)
+        });
+        let complete = ends.take(self.depth + 1).enumerate();
+        let is_small =
+            |(_, nodes): &(usize, Range<u32>)| nodes.len() as f64 * per_node <= within.as_secs_f64();
+        let deepest = complete.filter(is_small).last();
+        deepest.map_or_else(Fringe::default, |(depth, nodes)| Fringe { nodes, depth })
+    }
+
+    /// How long it takes to look at a map of this level, by a sample.
+    fn seconds_per_node(&self, tree: &Tree, context: Context<'_>) -> f64 {
+        let started = Instant::now();
+        let mut looked_at = 0;
+        for together in self.pieces().chunks(PIECES_A_SAMPLE) {
+            let (first, last) = (together[0].start, together[together.len() - 1].end);
+            let sample = Fringe { nodes: first..last, depth: self.depth };
+            sample.survey(tree, context, Preference::default(), 1);
+            looked_at += sample.nodes.len();
+            if started.elapsed() > SAMPLING {
+                break;
+            }
+        }
+        started.elapsed().as_secs_f64() / looked_at.max(1) as f64
     }
 
     fn pieces(&self) -> Vec<Range<u32>> {

@@ -8,7 +8,7 @@ use hssh_topology::{Outcome, Position, Removals};
 
 use crate::context::Context;
 use crate::cursor::Cursor;
-use crate::experience::Experience;
+use crate::limits::StopReason;
 use crate::report::{Probable, Score};
 use crate::tree::{Child, NodeId, Tree};
 use crate::visit::MeasurementError;
@@ -26,8 +26,11 @@ pub(crate) trait Appraise: Debug + Sync + Sized {
     /// the answer; else it follows from the map alone, and only the best ones do.
     const WEIGHS: bool;
 
-    /// Takes notice of the travels that are new.
-    fn observe(&mut self, experience: &Experience, tree: &Tree) -> Result<(), MeasurementError>;
+    /// Takes notice of the travels that are new. A limit may stop it, and the next call goes on.
+    ///
+    /// # Errors
+    /// If a travel cannot be used.
+    fn observe(&mut self, context: Context<'_>, tree: &Tree) -> Result<Option<StopReason>, MeasurementError>;
 
     /// Appraises a leaf anew that was made when there were only `before` travels to explain.
     fn renew(

@@ -8,6 +8,19 @@
 //!
 //! One step, one engine: [`Hypothesis::step`](hssh_topology::Hypothesis::step) says in which ways a travel follows, an objective
 //! appraises them, and an order takes the next one from the frontier.
+//!
+//! ```
+//! use hssh_search::{Mapper, Order};
+//! use hssh_world::{grid, snake};
+//!
+//! // A robot that goes through 3 × 3 crossings row by row, and proves which map is the simplest.
+//! let world = grid(3, 3, 8.0)?;
+//! let exploration = world.explore(&world.route_through(&snake(3, 3))?)?;
+//! let mapper = Mapper::builder().order(Order::Cyclic).explain(&exploration)?;
+//! assert!(mapper.report().is_optimal);
+//! assert_eq!(mapper.maps(1)[0].measure.genus, 0);
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
 
 mod branch;
 mod branching;

@@ -119,6 +119,17 @@ impl Watch {
         late.then_some(StopReason::TimeLimit)
     }
 
+    /// How much time there was, if that is limited.
+    pub(crate) fn time(&self) -> Option<Duration> {
+        self.limits.time
+    }
+
+    /// The same, but over so much sooner, if time is limited.
+    pub(crate) fn sooner(&self, reserve: Duration) -> Self {
+        let deadline = self.deadline.and_then(|deadline| deadline.checked_sub(reserve));
+        Watch { deadline: deadline.or(self.deadline), ..self.clone() }
+    }
+
     /// The limits of a search that keeps its tree, which can number half of 2^32 nodes and what one
     /// round of expansions adds.
     pub(crate) fn for_tree(limits: Limits, monitor: &Arc<Monitor>) -> Self {

@@ -48,7 +48,8 @@ impl MapperBuilder {
     /// # Errors
     /// If the operating system gives no threads, or the axioms or the model make no sense.
     pub fn start(self, star: &Star) -> Result<Mapper, MapperError> {
-        Mapper::new(self, Experience::new(star, &[]))
+        let watch = Watch::for_tree(self.limits, &self.monitor);
+        Mapper::new(self, Experience::new(star, &[]), &watch)
     }
 
     /// A mapper that has seen its first star, with the bearings of its ends where they were measured, rad.
@@ -60,7 +61,8 @@ impl MapperBuilder {
     /// If there are bearings, but not one for each end.
     pub fn start_with(self, star: &Star, bearings: &[Option<f64>]) -> Result<Mapper, MapperError> {
         assert!(bearings.is_empty() || bearings.len() == star.ends().len(), "one bearing for each end");
-        Mapper::new(self, Experience::new(star, bearings))
+        let watch = Watch::for_tree(self.limits, &self.monitor);
+        Mapper::new(self, Experience::new(star, bearings), &watch)
     }
 
     /// A mapper that has been through a whole exploration, and has searched its tree.
@@ -69,8 +71,9 @@ impl MapperBuilder {
     /// If the operating system gives no threads, if the axioms or the model make no sense or it asks for measurements that are not there, or
     /// if there is no map and some layout cannot be computed.
     pub fn explain(self, exploration: &Exploration) -> Result<Mapper, MapperError> {
-        let mut mapper = Mapper::new(self, Experience::from(exploration))?;
-        mapper.advance();
+        let watch = Watch::for_tree(self.limits, &self.monitor);
+        let mut mapper = Mapper::new(self, Experience::from(exploration), &watch)?;
+        mapper.go_on(&watch);
         match mapper.unsolvable() {
             Some((travels, problem)) if mapper.is_empty() => {
                 Err(MapperError::Unsolvable { travels, problem: *problem })
@@ -135,15 +138,17 @@ impl Mapper {
     }
 
     /// A mapper that has not searched yet.
-    pub(crate) fn new(options: MapperBuilder, experience: Experience) -> Result<Self, MapperError> {
+    pub(crate) fn new(
+        options: MapperBuilder,
+        experience: Experience,
+        watch: &Watch,
+    ) -> Result<Self, MapperError> {
         options.axioms.check()?;
         if let Objective::Posterior(model) = options.objective {
             model.check()?;
         }
         let crew = Crew::new(options.threads)?;
-        let watch = Watch::for_tree(options.limits, &options.monitor);
-        let context =
-            Context { experience: &experience, axioms: &options.axioms, crew: &crew, watch: &watch };
+        let context = Context { experience: &experience, axioms: &options.axioms, crew: &crew, watch };
         let MapperBuilder { order, goal, proving, .. } = options;
         let search = match options.objective {
             Objective::Preference(preference) => {
@@ -202,22 +207,23 @@ impl Mapper {
     /// again after a limit, with other [limits](Self::set_limits) or a [reset](crate::Monitor::reset)
     /// monitor, to go on where it stopped; breadth-first goes on from its last complete level.
     pub fn advance(&mut self) -> StopReason {
+        let watch = Watch::for_tree(self.options.limits, &self.options.monitor);
+        self.go_on(&watch)
+    }
+
+    /// Searches on under limits that have begun.
+    fn go_on(&mut self, watch: &Watch) -> StopReason {
         let started = Instant::now();
         let travels = self.experience.observations.len();
-        let watch = Watch::for_tree(self.options.limits, &self.options.monitor);
-        let context = Context {
-            experience: &self.experience,
-            axioms: &self.options.axioms,
-            crew: &self.crew,
-            watch: &watch,
-        };
-        let span = tracing::info_span!("search", strategy = self.options.strategy(), travels);
+        let Mapper { experience, crew, options, search, .. } = self;
+        let context = Context { experience, axioms: &options.axioms, crew, watch };
+        let span = tracing::info_span!("search", strategy = options.strategy(), travels);
         let _entered = span.enter();
-        self.searched = travels;
-        self.stop = with_engine!(&mut self.search, engine => {
-            engine.observe(context).expect("every travel was checked when it was observed");
-            engine.advance(context)
+        self.stop = with_engine!(search, engine => {
+            let stop = engine.observe(context).expect("every travel was checked when it was observed");
+            stop.unwrap_or_else(|| engine.advance(context))
         });
+        self.searched = with_engine!(&self.search, engine => engine.travels());
         self.seconds += started.elapsed().as_secs_f64();
         self.stop
     }
@@ -227,14 +233,24 @@ impl Mapper {
         self.options.limits = limits;
     }
 
-    /// How many travels the maps explain: fewer than were observed if a limit stopped the search, and
-    /// none if there is no map of everything yet; breadth-first has those of its last complete level.
+    /// How many travels the maps explain: fewer than were observed if a limit stopped the search. Breadth-first has the
+    /// maps of a complete level then, the last one that there was time to look through; all others have the best of the
+    /// hypotheses that got farthest.
     #[must_use]
     pub fn explained(&self) -> usize {
         if self.options.order == Order::BreadthFirst {
-            return with_engine!(&self.search, engine => engine.fringe.depth);
+            return with_engine!(&self.search, engine => engine.level().depth);
         }
-        if !self.is_empty() || self.stop.is_complete() { self.searched } else { 0 }
+        if !self.is_empty() || self.stop.is_complete() {
+            return self.searched;
+        }
+        let deepest = with_engine!(&self.search, engine => engine.deepest());
+        deepest.filter(|_| self.is_cut_short()).unwrap_or(0)
+    }
+
+    /// Whether a limit or an interruption stopped the search.
+    fn is_cut_short(&self) -> bool {
+        !self.stop.is_complete() && self.stop != StopReason::NotSearched
     }
 
     /// Whether no map was found.
@@ -270,15 +286,14 @@ impl Mapper {
             Search::Preference(engine) => {
                 let preference = engine.appraiser.preference;
                 if self.options.order == Order::BreadthFirst {
-                    let (finals, maps) = engine.fringe.survey(&engine.tree, context, preference, most);
+                    let (finals, maps) = engine.level().survey(&engine.tree, context, preference, most);
                     return (self.report_on(engine, finals), maps);
                 }
-                let (finals, maps) = survey(engine, preference, &self.experience, most);
+                let (finals, maps) = self.survey(engine, preference, context, most);
                 (self.report_on(engine, finals), maps)
             }
             Search::Posterior(engine) => {
-                let (mut finals, mut maps) =
-                    survey(engine, Preference::default(), &self.experience, usize::MAX);
+                let (mut finals, mut maps) = self.survey(engine, Preference::default(), context, usize::MAX);
                 let proof = proof(engine);
                 let least = maps.first().and_then(RankedMap::nats).unwrap_or(0.0);
                 let weight = |map: &RankedMap| map.nats().map_or(0.0, |nats| (least - nats).exp());
@@ -291,9 +306,10 @@ impl Mapper {
                     }
                 }
                 finals.best = maps.first().map(|map| map.measure);
-                let tie = engine.found.first().map(|best| engine.appraiser.reach(best.leaf.key, 0.0));
-                finals.optimal =
-                    engine.found.iter().filter(|found| Some(found.leaf.key) <= tie).count() as u64;
+                if let Some(best) = engine.found.first() {
+                    let tie = engine.appraiser.reach(best.leaf.key, 0.0);
+                    finals.optimal = engine.found.iter().filter(|found| found.leaf.key <= tie).count() as u64;
+                }
                 maps.truncate(most);
                 (self.report_on(engine, finals), maps)
             }
@@ -373,6 +389,35 @@ impl Mapper {
         Context { experience, axioms: &options.axioms, crew, watch }
     }
 
+    /// The maps that were found, ranked, with counts over all of them; if a limit came before the first, the
+    /// best hypothesis of those that got farthest.
+    fn survey<A: Appraise>(
+        &self,
+        engine: &Engine<A>,
+        preference: Preference,
+        context: Context<'_>,
+        most: usize,
+    ) -> (FinalCounts, Vec<RankedMap>) {
+        let Context { experience, .. } = context;
+        let mut counts = FinalCounts::default();
+        let mut cursor = Cursor::new(experience);
+        let mut maps = Vec::new();
+        let is_partial = engine.found.is_empty() && self.is_cut_short();
+        let partial = is_partial.then(|| engine.best_of_deepest(context)).flatten();
+        for leaf in engine.found.iter().map(|found| &found.leaf).chain(&partial) {
+            let node = leaf.node;
+            let is_listed = maps.len() < most;
+            let visits = (is_listed && A::WEIGHS).then(|| cursor.visits(node, &engine.tree, experience));
+            let map = &cursor.go_to(node, &engine.tree, experience).map;
+            counts.record(map, preference);
+            if is_listed {
+                let probable = visits.and_then(|visits| engine.appraiser.probable(leaf, visits));
+                maps.push(RankedMap { probable, ..RankedMap::of(node, map) });
+            }
+        }
+        (counts, maps)
+    }
+
     fn report_on<A: Appraise>(&self, engine: &Engine<A>, finals: FinalCounts) -> Report {
         let levels = engine.tally.levels.clone();
         let order = self.options.order;
@@ -401,30 +446,6 @@ impl Mapper {
     }
 }
 
-/// The maps that were found, ranked, with counts over all of them.
-fn survey<A: Appraise>(
-    engine: &Engine<A>,
-    preference: Preference,
-    experience: &Experience,
-    most: usize,
-) -> (FinalCounts, Vec<RankedMap>) {
-    let mut counts = FinalCounts::default();
-    let mut cursor = Cursor::new(experience);
-    let mut maps = Vec::new();
-    for found in &engine.found {
-        let node = found.leaf.node;
-        let is_listed = maps.len() < most;
-        let visits = (is_listed && A::WEIGHS).then(|| cursor.visits(node, &engine.tree, experience));
-        let map = &cursor.go_to(node, &engine.tree, experience).map;
-        counts.record(map, preference);
-        if is_listed {
-            let probable = visits.and_then(|visits| engine.appraiser.probable(&found.leaf, visits));
-            maps.push(RankedMap { probable, ..RankedMap::of(node, map) });
-        }
-    }
-    (counts, maps)
-}
-
 /// What is known about the answer of a search whose keys are bounds.
 pub(crate) fn proof<A: Appraise>(engine: &Engine<A>) -> Proof {
     let Engine { appraiser, found, factors, reach, .. } = engine;
@@ -445,9 +466,11 @@ pub(crate) fn proof<A: Appraise>(engine: &Engine<A>) -> Proof {
     Proof {
         best: best.map(|best| appraiser.score(best)),
         open_bound: open_bound.map(|bound| appraiser.score(bound)),
-        proved: is_sound && !unsolvable && best.map_or(open_bound.is_none(), beats_rest),
+        proved: engine.is_begun() && is_sound && !unsolvable && best.map_or(open_bound.is_none(), beats_rest),
         // Nobody knows what the hypotheses weigh that have no layout.
-        rest: engine.rest().map(|rest| if unsolvable || !is_rest_sound { 1.0 } else { rest }),
+        rest: engine
+            .rest()
+            .map(|rest| if unsolvable || !is_rest_sound || !engine.is_begun() { 1.0 } else { rest }),
         linear_factor,
         unsolvable,
     }

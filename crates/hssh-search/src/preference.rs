@@ -8,8 +8,8 @@ use hssh_topology::{Measure, Preference, Rank, Step, TopologicalMap};
 
 use crate::context::Context;
 use crate::cursor::Cursor;
-use crate::experience::Experience;
 use crate::leaf::{Appraise, Grown, Growth, Leaf};
+use crate::limits::StopReason;
 use crate::order::Order;
 use crate::report::Score;
 use crate::step::{Look, successors};
@@ -45,8 +45,8 @@ impl Appraise for ByPreference {
 
     const WEIGHS: bool = false;
 
-    fn observe(&mut self, _: &Experience, _: &Tree) -> Result<(), MeasurementError> {
-        Ok(())
+    fn observe(&mut self, _: Context<'_>, _: &Tree) -> Result<Option<StopReason>, MeasurementError> {
+        Ok(None)
     }
 
     fn renew(

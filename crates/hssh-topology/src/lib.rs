@@ -3,6 +3,17 @@
 //! Stars and their isomorphisms, embedded graphs with their faces and genus, topological maps,
 //! and the recursive step that turns one hypothesis about an exploration into its successors.
 //! No coordinates, no input or output.
+//!
+//! ```
+//! use hssh_topology::{Isomorphism, Star};
+//!
+//! // A T as it looks from below, and as it looks from the right: one star, turned by a quarter.
+//! let below: Star = "0+ (1+) 0- 1-".parse()?;
+//! let right: Star = "(1+) 0- 1- 0+".parse()?;
+//! let turns: Vec<u32> = Isomorphism::all(&below, &right).map(|phi| phi.rotation()).collect();
+//! assert_eq!(turns.len(), 1);
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
 
 mod axioms;
 mod catalog;

@@ -20,6 +20,8 @@ pub(crate) enum Status {
     NothingConsistent,
     /// A limit or an interruption stopped the search.
     Stopped,
+    /// Something that was asked for is not there, which was said.
+    Refused,
 }
 
 impl Status {
@@ -39,6 +41,7 @@ impl From<Status> for ExitCode {
             Status::Found => ExitCode::SUCCESS,
             Status::NothingConsistent => ExitCode::from(1),
             Status::Stopped => ExitCode::from(3),
+            Status::Refused => ExitCode::from(2),
         }
     }
 }

@@ -34,7 +34,7 @@ fn main() -> ExitCode {
         Command::Explore(options) => command::explore::run(&options),
         Command::Simulate(options) => command::simulate::run(&options),
         Command::Verify(options) => command::verify::run(&options),
-        Command::Options => command::print_options(),
+        Command::Options(options) => command::print_options(&options),
     };
     match done {
         Ok(status) => status.into(),

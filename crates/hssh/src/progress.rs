@@ -1,7 +1,7 @@
-//! The progress line of long searches, and Ctrl-C.
+//! The progress line of long searches, and what stops long work: Ctrl-C, and the signals of those who end programs.
 
-use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::{Arc, LazyLock};
 use std::thread::Thread;
 use std::time::Duration;
 
@@ -11,22 +11,40 @@ use indicatif::{HumanCount, ProgressBar, ProgressStyle};
 /// A search that takes less than this shows no progress.
 const PATIENCE: Duration = Duration::from_millis(700);
 
-/// Runs `search` with a monitor that Ctrl-C interrupts; a second Ctrl-C ends the program at once. On a
-/// terminal, a line on standard error says how far the search is.
-pub(crate) fn watched<T>(travels: usize, search: impl FnOnce(&Arc<Monitor>) -> T) -> T {
-    let monitor = Arc::<Monitor>::default();
-    let on_signal = Arc::clone(&monitor);
-    let asked = AtomicBool::new(false);
-    let handler = ctrlc::set_handler(move || {
-        if asked.swap(true, Ordering::Relaxed) {
+/// Whether somebody wants the program to stop with what it has.
+static ASKED: AtomicBool = AtomicBool::new(false);
+
+/// The monitor of the one search of this program.
+static MONITOR: LazyLock<Arc<Monitor>> = LazyLock::new(Arc::default);
+
+/// From here on, Ctrl-C and the signals that ask programs to end (SIGTERM, SIGHUP) do not end the program but
+/// [interrupt](is_interrupted) its work, which keeps what it has; the second one ends it at once.
+pub(crate) fn keep_on_signals() {
+    static KEPT: AtomicBool = AtomicBool::new(false);
+    if KEPT.swap(true, Ordering::Relaxed) {
+        return;
+    }
+    let handler = ctrlc::set_handler(|| {
+        if ASKED.swap(true, Ordering::Relaxed) {
             std::process::exit(130);
         }
-        on_signal.interrupt();
+        MONITOR.interrupt();
     });
     if let Err(error) = handler {
         tracing::warn!("Ctrl-C will end the program without a result: {error}");
     }
+}
 
+/// Whether the work at hand is to stop, with what it has.
+pub(crate) fn is_interrupted() -> bool {
+    ASKED.load(Ordering::Relaxed)
+}
+
+/// Runs `search` with a monitor that signals interrupt. On a terminal, a line on standard error says how far the search
+/// is.
+pub(crate) fn watched<T>(travels: usize, search: impl FnOnce(&Arc<Monitor>) -> T) -> T {
+    keep_on_signals();
+    let monitor = Arc::clone(&MONITOR);
     let done = AtomicBool::new(false);
     std::thread::scope(|scope| {
         let line = scope.spawn(|| show(&monitor, travels, &done));

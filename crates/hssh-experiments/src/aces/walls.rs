@@ -75,7 +75,7 @@ mod tests {
 
     /// What a robot off the centre of a room of 8 m × 6 m sees that has turned by `heading`.
     fn scan_of_a_room(heading: f64) -> Scan {
-        let mut scan = Scan { ranges: vec![0.0; 180] };
+        let mut scan = Scan::of_half_turn(vec![0.0; 180]);
         for beam in 0..scan.ranges.len() {
             let (sin, cos) = (heading + scan.bearing(beam)).sin_cos();
             let to_wall = |to: f64, speed: f64| if speed == 0.0 { f64::INFINITY } else { to / speed };

@@ -58,7 +58,9 @@ impl Errors {
                     errors.unconfirmed.add(is_lost(earlier - 1, scan - 1));
                 }
                 // Neither tells of a return.
-                SurveyWarning::Lost { .. } | SurveyWarning::NoOdometry => {}
+                SurveyWarning::Lost { .. }
+                | SurveyWarning::NoOdometry
+                | SurveyWarning::Interrupted { .. } => {}
             }
         }
         for (earlier, later) in true_returns(&survey.track, truth) {

@@ -103,6 +103,26 @@ pub enum LogWarning {
         /// Where that is known from.
         source: &'static str,
     },
+    /// The scans do not turn as the odometry does: the laser looks wider or less wide than was taken for granted.
+    View {
+        /// The view that was taken: radians.
+        view: f64,
+        /// The view with which scans and odometry turn alike: radians.
+        seen: f64,
+        /// Whether the view was given, by the log or by the user.
+        is_told: bool,
+    },
+    /// Many readings are beyond the limit that the log says.
+    LimitDoubted {
+        /// The limit: metres.
+        said: f64,
+        /// How many readings are longer.
+        beyond: u64,
+        /// How many there are.
+        beams: u64,
+        /// The longest: metres.
+        longest: f64,
+    },
     /// The odometry jumps as no robot moves; the step is bridged by the one before it and by the scans.
     Jump {
         /// The line behind the jump, counted from 1.
@@ -122,7 +142,10 @@ impl LogWarning {
             | LogWarning::BreaksOff { line, .. }
             | LogWarning::OddBeams { line, .. }
             | LogWarning::Jump { line, .. } => *line,
-            LogWarning::RangeLimit { .. } | LogWarning::LaserPose { .. } => 0,
+            LogWarning::RangeLimit { .. }
+            | LogWarning::LimitDoubted { .. }
+            | LogWarning::LaserPose { .. }
+            | LogWarning::View { .. } => 0,
         }
     }
 
@@ -131,9 +154,11 @@ impl LogWarning {
     pub fn is_loss(&self) -> bool {
         match self {
             LogWarning::Message { .. } | LogWarning::BreaksOff { .. } | LogWarning::Jump { .. } => true,
-            LogWarning::OddBeams { .. } | LogWarning::RangeLimit { .. } | LogWarning::LaserPose { .. } => {
-                false
-            }
+            LogWarning::OddBeams { .. }
+            | LogWarning::RangeLimit { .. }
+            | LogWarning::LimitDoubted { .. }
+            | LogWarning::LaserPose { .. }
+            | LogWarning::View { .. } => false,
         }
     }
 }
@@ -168,6 +193,20 @@ impl fmt::Display for LogWarning {
                 "the laser sits {x:.2} m ahead of the robot's axis, {y:.2} m to its left and turned by {:.1}°, says {source}; \
                  the robot's poses are those of its laser",
                 theta.to_degrees()
+            ),
+            LogWarning::View { view, seen, is_told } => write!(
+                f,
+                "the walls do not turn as the odometry does with a laser that looks {:.0}° wide{}: they do with one of \
+                 about {:.0}°; what is made of the log is wrong if the view is",
+                view.to_degrees(),
+                if *is_told { ", as it is said to" } else { ", as was taken for granted" },
+                seen.to_degrees()
+            ),
+            LogWarning::LimitDoubted { said, beyond, beams, longest } => write!(
+                f,
+                "the log says that nothing comes back from {said} m on (`robot_front_laser_max`), but {beyond} of {beams} \
+                 readings are longer, up to {longest} m, and differ as walls do: they were taken to have brought nothing \
+                 back; is the limit right?"
             ),
             LogWarning::Jump { line, metres, turn } => write!(
                 f,

@@ -18,6 +18,8 @@ const LEAST: usize = 20;
 const LEAST_A_SCAN: usize = 2;
 /// …and this many times as many as there are down to nine tenths of it, as there are not of walls.
 const PEAK: usize = 3;
+/// A limit is doubted that more than this part of all readings exceed, of many lengths.
+const MOST_BEYOND: f64 = 0.03;
 /// With a smaller part of beams that came back, nothing can be made of a log.
 const LEAST_RETURNED: f64 = 0.01;
 /// Ranges of which the middle one, in millimetres, is between these many metres are millimetres.
@@ -48,6 +50,15 @@ impl RawLog {
             warnings.push(LogWarning::RangeLimit { limit: peak, beams, said });
         }
         let beams: usize = self.scans.iter().map(|scan| scan.ranges.len()).sum();
+        if let Some(said) = said {
+            let beyond = readings().filter(|&range| range >= said && range < DEFAULT);
+            let (count, longest) = (beyond.clone().count(), beyond.clone().fold(0.0, f64::max));
+            let like_walls = beyond.filter(|&range| range > said + AT_LIMIT && range < longest - AT_LIMIT);
+            if like_walls.count() as f64 > MOST_BEYOND * beams as f64 {
+                let (beyond, beams) = (count as u64, beams as u64);
+                warnings.push(LogWarning::LimitDoubted { said, beyond, beams, longest });
+            }
+        }
         let returned = readings().filter(|&range| range < limit).count();
         if (returned as f64) < LEAST_RETURNED * beams as f64 {
             let mut finite: Vec<f64> = readings().filter(|range| range.is_finite()).collect();

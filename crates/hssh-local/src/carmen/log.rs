@@ -6,6 +6,7 @@ use std::io::Read;
 use hssh_metrics::Pose;
 
 use super::error::{LogError, LogWarning};
+use super::mount::LaserMount;
 use super::raw::{RawLog, RawScan};
 use super::reader::LogReader;
 use crate::scan::Scan;
@@ -51,6 +52,14 @@ impl LaserLog {
     /// # Errors
     /// If the source cannot be read, is no text, is empty, has no usable scan, or if hardly a beam came back.
     pub fn read(source: impl Read) -> Result<Self, LogError> {
+        LaserLog::read_with(source, &LaserMount::default())
+    }
+
+    /// Reads a log as [`read`](Self::read) does, knowing of the laser what the log does not say, or says wrongly.
+    ///
+    /// # Errors
+    /// As [`read`](Self::read).
+    pub fn read_with(source: impl Read, known: &LaserMount) -> Result<Self, LogError> {
         let mut reader = LogReader::new(source)?;
         let mut raw = RawLog::default();
         while let Some(message) = reader.next_message()? {
@@ -62,13 +71,15 @@ impl LaserLog {
         }
         raw.keep_usual_scans(&mut warnings);
         raw.tell_odd_beams(&mut warnings);
-        raw.move_to_laser(&mut warnings);
+        let (view, is_told) = raw.view(known);
+        raw.check_view(view, is_told, &mut warnings);
+        raw.move_to_laser(known, &mut warnings);
         raw.bridge_jumps(&mut warnings);
         let max_range = raw.limit(&mut warnings)?;
         warnings.sort_by_key(LogWarning::line);
         let came_back = |range: f64| if range > 0.0 && range < max_range { range } else { f64::INFINITY };
         let logged = |scan: RawScan| LoggedScan {
-            scan: Scan { ranges: scan.ranges.into_iter().map(came_back).collect() },
+            scan: Scan { ranges: scan.ranges.into_iter().map(came_back).collect(), view },
             odometry: raw.trajectory[scan.moment].pose,
             moment: scan.moment,
             corrected: scan.corrected,
@@ -82,6 +93,14 @@ impl LaserLog {
             skipped: raw.skipped,
             warnings,
         })
+    }
+
+    /// The log as if it ended with its scan number `scans`, counted from 1.
+    #[must_use]
+    pub fn beginning(&self, scans: usize) -> Self {
+        let scans = self.scans[..scans.min(self.scans.len())].to_vec();
+        let moments = scans.last().map_or(0, |last| last.moment + 1);
+        LaserLog { scans, trajectory: self.trajectory[..moments].to_vec(), ..self.clone() }
     }
 
     /// Number of beams of a scan.

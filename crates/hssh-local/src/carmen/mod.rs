@@ -4,7 +4,7 @@
 //! |---|---|
 //! | `FLASER n r… x y θ x y θ t host t` | a scan, the corrected pose (for scoring only) and the raw odometry |
 //! | `ODOM x y θ …` | raw odometry between scans |
-//! | `PARAM name value …` | `robot_front_laser_max`: from that range on nothing came back; `robot_frontlaser_offset` and its kin: where the laser sits |
+//! | `PARAM name value …` | `robot_front_laser_max`: from that range on nothing came back; `robot_frontlaser_offset` and its kin: where the laser sits; `laser_front_laser_fov`: how wide it looks |
 //! | anything else | counted |
 //!
 //! Names of messages may be in capitals or not. The last of several values of a parameter counts, for the whole log.
@@ -17,8 +17,10 @@ mod message;
 mod mount;
 mod raw;
 mod reader;
+mod view;
 
 pub use error::{LogError, LogWarning, MessageProblem};
 pub use log::{LaserLog, LoggedScan};
 pub use message::{LaserMessage, Message};
+pub use mount::LaserMount;
 pub use reader::LogReader;

@@ -1,4 +1,4 @@
-//! Where the laser sits on the robot.
+//! Where the laser sits on the robot, and how wide it looks.
 
 use hssh_metrics::Pose;
 
@@ -15,13 +15,33 @@ const ROUNDING: f64 = 0.003;
 /// So much is no offset worth a word, in metres and radians.
 const NEGLIGIBLE: f64 = 0.1;
 
+/// The parameter that says how wide the laser looks: degrees.
+const VIEW: &str = "laser_front_laser_fov";
+
+/// What is known of the laser beside the log: it counts more than what the log says.
+#[derive(Clone, Copy, PartialEq, Debug, Default)]
+pub struct LaserMount {
+    /// How wide the laser looks: radians.
+    pub view: Option<f64>,
+    /// The laser in the frame of the robot.
+    pub pose: Option<Pose>,
+}
+
 impl RawLog {
+    /// How wide the laser looks, in radians, and whether anybody says so.
+    pub(super) fn view(&self, known: &LaserMount) -> (f64, bool) {
+        let said = self.parameter(VIEW).filter(|degrees| *degrees > 0.0 && *degrees <= 360.0);
+        let told = known.view.or(said.map(f64::to_radians));
+        (told.unwrap_or(std::f64::consts::PI), told.is_some())
+    }
+
     /// Makes the trajectory that of the laser, from which all ranges are measured.
-    pub(super) fn move_to_laser(&mut self, warnings: &mut Vec<LogWarning>) {
-        let (pose, source) = match (self.told_by_poses(), self.told_by_parameters()) {
-            (Some(pose), _) => (pose, "the difference of the two poses in each FLASER message"),
-            (None, Some(pose)) => (pose, "the log's parameter robot_frontlaser_offset"),
-            (None, None) => return,
+    pub(super) fn move_to_laser(&mut self, known: &LaserMount, warnings: &mut Vec<LogWarning>) {
+        let (pose, source) = match (known.pose, self.told_by_poses(), self.told_by_parameters()) {
+            (Some(pose), ..) => (pose, "who gave it"),
+            (None, Some(pose), _) => (pose, "the difference of the two poses in each FLASER message"),
+            (None, None, Some(pose)) => (pose, "the log's parameter robot_frontlaser_offset"),
+            (None, None, None) => return,
         };
         for moment in &mut self.trajectory {
             moment.pose = moment.pose.compose(pose);

@@ -17,6 +17,7 @@ use super::ways::{Known, Ways};
 use crate::carmen::LaserLog;
 use crate::grid::LatticeError;
 use crate::matching::Track;
+use crate::progress::Reply;
 
 /// How often the log is gone through: what was not found where it was believed to be may be found later.
 const SWEEPS: usize = 2;
@@ -78,22 +79,25 @@ pub enum ClosingError {
     Solve(#[from] SolveError),
 }
 
-/// Closes the loops of a track.
+/// Closes the loops of a track. `progress` is told which scan it is at, and may stop there: the loops found so far are closed.
 ///
 /// # Errors
 /// If the options describe no submap, or the pose graph cannot be solved.
-pub fn close_loops(
+pub fn close_loops<R: Into<Reply>>(
     log: &LaserLog,
     track: &Track,
     options: &ClosingOptions,
-    mut progress: impl FnMut(usize),
+    mut progress: impl FnMut(usize) -> R,
 ) -> Result<ClosedTrack, ClosingError> {
     let keyframes = keyframes(log, track, options);
     let mut closing = Closing::new(log, track, keyframes, options)?;
-    for _ in 0..SWEEPS {
+    'sweeps: for _ in 0..SWEEPS {
         for query in 0..closing.submaps.len() {
             closing.close(query)?;
-            progress(closing.keyframes[closing.submaps[query].middle].scan);
+            let scan = closing.keyframes[closing.submaps[query].middle].scan;
+            if progress(scan).into() == Reply::Stop {
+                break 'sweeps;
+            }
         }
     }
     closing.finish(track)

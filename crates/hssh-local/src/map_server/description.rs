@@ -40,6 +40,9 @@ enum Mode {
     Raw,
 }
 
+/// No map needs to be turned by more, in radians: a full circle, with room for rounding.
+const LARGEST_TURN: f64 = 6.3;
+
 /// As what `map_saver` writes the unknown.
 pub(super) const UNKNOWN_GRAY: u8 = 205;
 
@@ -119,9 +122,9 @@ impl Description {
             problem: in_plain_words(&error.to_string()),
         })?;
         let Description { origin: [.., yaw], occupied_thresh, free_thresh, .. } = description;
-        if yaw != 0.0 {
+        if !(-LARGEST_TURN..=LARGEST_TURN).contains(&yaw) {
             return Err(refuse(format!(
-                "`origin` turns the map by {yaw} rad; only 0 is supported: turn the image itself, or set the third number to 0 to work in the frame of the image"
+                "`origin` turns the map by {yaw} rad, more than a full circle: the third number is an angle in radians"
             )));
         }
         if !(0.0 <= free_thresh && free_thresh <= occupied_thresh && occupied_thresh <= 1.0) {

@@ -44,7 +44,7 @@ pub enum MapError {
         problem: String,
     },
     /// The image cannot be decoded.
-    #[error("{}: no readable PGM (P2, P5) or PNG image: {problem}", .file.display())]
+    #[error("{}: no readable image, PGM (P2, P5), PNG, BMP, JPEG, TIFF or WebP: {problem}", .file.display())]
     Image {
         /// The image.
         file: PathBuf,

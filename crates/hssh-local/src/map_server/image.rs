@@ -1,13 +1,22 @@
-//! The images of maps as gray values: PGM (P2, P5) and PNG, decoded and encoded.
+//! The images of maps as gray values: PGM (P2, P5) and PNG, decoded and encoded, and others, decoded.
 
 use std::io::Cursor;
 
+use image::{ImageFormat, ImageReader};
 use png::{BitDepth, ColorType, Compression, Decoder, Encoder, Filter, Reader, Transformations};
 
 /// An image of which the size is known and the pixels are still to be decoded.
 pub(super) enum Encoded<'a> {
     Pgm(Pgm<'a>),
     Png(Box<Reader<Cursor<&'a [u8]>>>),
+    Other(Other<'a>),
+}
+
+/// An image that another library decodes.
+pub(super) struct Other<'a> {
+    bytes: &'a [u8],
+    format: ImageFormat,
+    size: (u32, u32),
 }
 
 /// A pixel: its gray value and its opacity.
@@ -35,7 +44,7 @@ impl<'a> Encoded<'a> {
                 Ok(Encoded::Png(Box::new(reader)))
             }
             [] => Err("the file is empty".to_owned()),
-            _ => Err("it begins like neither".to_owned()),
+            _ => Other::open(bytes).map(Encoded::Other),
         }
     }
 
@@ -44,6 +53,7 @@ impl<'a> Encoded<'a> {
         match self {
             Encoded::Pgm(pgm) => (pgm.width, pgm.height),
             Encoded::Png(reader) => reader.info().size(),
+            Encoded::Other(other) => other.size,
         }
     }
 
@@ -52,8 +62,30 @@ impl<'a> Encoded<'a> {
         match self {
             Encoded::Pgm(pgm) => pgm.pixels(),
             Encoded::Png(reader) => png_pixels(*reader),
+            Encoded::Other(other) => other.pixels(),
         }
     }
+}
+
+impl<'a> Other<'a> {
+    fn open(bytes: &'a [u8]) -> Result<Self, String> {
+        const READ: [ImageFormat; 4] =
+            [ImageFormat::Bmp, ImageFormat::Jpeg, ImageFormat::Tiff, ImageFormat::WebP];
+        let format = image::guess_format(bytes).ok().filter(|format| READ.contains(format));
+        let format = format.ok_or("it begins like none of them")?;
+        let size = reader(bytes, format).into_dimensions().map_err(|error| error.to_string())?;
+        Ok(Other { bytes, format, size })
+    }
+
+    fn pixels(self) -> Result<Vec<Pixel>, String> {
+        let image = reader(self.bytes, self.format).decode().map_err(|error| error.to_string())?;
+        let to_pixel = |[red, green, blue, alpha]: [u8; 4]| [luminance([red, green, blue]), alpha];
+        Ok(image.to_rgba8().pixels().map(|pixel| to_pixel(pixel.0)).collect())
+    }
+}
+
+fn reader(bytes: &[u8], format: ImageFormat) -> ImageReader<Cursor<&[u8]>> {
+    ImageReader::with_format(Cursor::new(bytes), format)
 }
 
 impl<'a> Pgm<'a> {
@@ -158,6 +190,26 @@ mod tests {
         Ok(Encoded::open(bytes)?.pixels()?.into_iter().map(|[gray, _]| gray).collect())
     }
 
+    /// Whatever the format, the gray values are those that were encoded; JPEG is nearly so.
+    #[test]
+    fn images_of_every_kind_say_the_same() {
+        let gray: Vec<u8> = (0..16 * 16).map(|index| if index / 16 < 8 { 205 } else { 0 }).collect();
+        let image = image::GrayImage::from_raw(16, 16, gray.clone()).unwrap();
+        let image = image::DynamicImage::from(image);
+        for format in [ImageFormat::Bmp, ImageFormat::Jpeg, ImageFormat::Tiff, ImageFormat::WebP] {
+            let mut bytes = Cursor::new(Vec::new());
+            let image = image::DynamicImage::from(image.to_rgb8());
+            image.write_to(&mut bytes, format).unwrap();
+            let bytes = bytes.into_inner();
+            assert_eq!(Encoded::open(&bytes).map(|image| image.size()), Ok((16, 16)));
+            let most = if format == ImageFormat::Jpeg { 8 } else { 1 };
+            let found = grays(&bytes).unwrap();
+            assert!(found.iter().zip(&gray).all(|(one, other)| one.abs_diff(*other) <= most), "{format:?}");
+            assert!(grays(&bytes[..bytes.len() / 2]).is_err(), "{format:?} cut off");
+        }
+        assert!(grays(b"GIF89a").is_err());
+    }
+
     #[test]
     fn graymaps_of_every_kind_say_the_same() {
         let expected = Ok(vec![0, 51, 255]);
@@ -176,7 +228,7 @@ mod tests {
         assert_eq!(grays(b"P2\n2\n").unwrap_err(), "its header has no height");
         assert_eq!(grays(b"P2 1 1 9 10").unwrap_err(), "a pixel is 10, above the greatest gray value 9");
         assert!(grays(b"P5 1 1 0 ").unwrap_err().contains("must be between 1 and 65535"));
-        assert_eq!(grays(b"P6 1 1 255 abc").unwrap_err(), "it begins like neither");
+        assert_eq!(grays(b"P6 1 1 255 abc").unwrap_err(), "it begins like none of them");
     }
 
     /// White is light and black dark in every kind of PNG, and what is transparent says so.

@@ -6,6 +6,7 @@ mod image;
 mod read;
 #[cfg(test)]
 mod tests;
+mod turned;
 mod write;
 
 pub use error::MapError;

@@ -5,12 +5,14 @@ use std::path::Path;
 use super::MapError;
 use super::description::{Description, UNKNOWN_GRAY};
 use super::image::Encoded;
+use super::turned::turned;
 use crate::grid::{Cell, Lattice, LatticeError, Occupancy, OccupancyGrid};
 
-/// Reads a map of ROS `map_server`: a YAML file and the PGM (P2, P5) or PNG image it names.
+/// Reads a map of ROS `map_server`: a YAML file and the image it names, PGM (P2, P5), PNG, BMP, JPEG, TIFF or WebP. An image
+/// that the origin turns comes back as cells along the axes of the map's frame.
 ///
 /// # Errors
-/// If a file cannot be read, a field is missing or of the wrong type, the map is turned, or the image
+/// If a file cannot be read, a field is missing or of the wrong type, or the image
 /// is damaged or too large.
 pub fn read_map(yaml: &Path) -> Result<OccupancyGrid, MapError> {
     read_map_with_remarks(yaml).map(|(grid, _)| grid)
@@ -51,7 +53,7 @@ pub fn read_map_with_remarks(yaml: &Path) -> Result<(OccupancyGrid, Vec<String>)
 /// its lower left corner is the origin.
 ///
 /// # Errors
-/// If the file cannot be read, is no PGM or PNG image, or is too large.
+/// If the file cannot be read, is no such image, or is too large.
 pub fn read_floor_plan(image: &Path, resolution: f64) -> Result<OccupancyGrid, MapError> {
     let bytes = std::fs::read(image).map_err(MapError::io("read", image))?;
     grid(image, &bytes, &Description::of_floor_plan(image, resolution)).map(|(grid, _)| grid)
@@ -73,6 +75,10 @@ fn grid(file: &Path, bytes: &[u8], description: &Description) -> Result<(Occupan
                 grid.set(Cell { column, row }, description.occupancy(gray, opacity == 0));
             }
         }
+    }
+    let [_, _, yaw] = description.origin;
+    if yaw != 0.0 {
+        grid = turned(&grid, yaw).map_err(MapError::lattice(file))?;
     }
     Ok((grid, has_marks))
 }

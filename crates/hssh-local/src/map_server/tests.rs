@@ -52,8 +52,8 @@ fn the_top_row_of_the_image_is_the_last_row_and_thresholds_decide() {
     assert_eq!(read(&format!("{yaml}mode: raw\n")).unwrap().cells(), [Unknown, Occupied, Free, Unknown]);
 
     let refusal = |yaml: &str| read(yaml).unwrap_err().to_string();
-    let turned = refusal(&yaml.replace("2, 0]", "2, 1.5]"));
-    assert!(turned.contains("a.yaml: `origin` turns the map by 1.5 rad"), "{turned}");
+    let turned = refusal(&yaml.replace("2, 0]", "2, 90]"));
+    assert!(turned.contains("a.yaml: `origin` turns the map by 90 rad"), "{turned}");
     let missing = refusal(&yaml.replace("resolution: 0.5\n", ""));
     assert!(missing.contains("a.yaml") && missing.contains("resolution"), "{missing}");
     let kind = refusal(&yaml.replace("0.5", "coarse"));
@@ -130,7 +130,10 @@ fn damaged_images_are_refused() {
     };
     for bytes in [&b"P5\n100 100\n255\nabc"[..], b"", b"hello", b"P2\n2 2\n255\n1 2 3"] {
         let message = refusal(bytes);
-        assert!(message.contains("a.pgm: no readable PGM (P2, P5) or PNG image"), "{message}");
+        assert!(
+            message.contains("a.pgm: no readable image, PGM (P2, P5), PNG, BMP, JPEG, TIFF or WebP"),
+            "{message}"
+        );
     }
     let huge = refusal(b"P5\n4000000000 4000000000\n255\n");
     assert!(huge.contains("a.pgm"), "{huge}");

@@ -9,6 +9,7 @@ use super::cloud::{Cloud, SurfacePoint, filled, surfaces};
 use super::correlate::{LikelihoodField, search};
 use super::options::MatchOptions;
 use crate::carmen::LaserLog;
+use crate::progress::Reply;
 use crate::scan::Scan;
 
 /// Of a scan that lies on nothing the hits' mean log-likelihood is below this, in nats: 0 is perfect, −3 hits nothing.
@@ -130,8 +131,12 @@ impl Tracker {
     }
 }
 
-/// Tracks the robot through a log. `progress` is told after each scan how many are done.
-pub fn track(log: &LaserLog, options: &MatchOptions, mut progress: impl FnMut(usize)) -> Track {
+/// Tracks the robot through a log. `progress` is told after each scan how many are done, and may stop there.
+pub fn track<R: Into<Reply>>(
+    log: &LaserLog,
+    options: &MatchOptions,
+    mut progress: impl FnMut(usize) -> R,
+) -> Track {
     let mut tracker = Tracker::new(*options);
     let mut track = Track::default();
     let mut before = log.scans.first().map_or(0, |first| first.moment);
@@ -141,7 +146,9 @@ pub fn track(log: &LaserLog, options: &MatchOptions, mut progress: impl FnMut(us
         if tracker.is_lost() {
             track.lost.push(index);
         }
-        progress(index + 1);
+        if progress(index + 1).into() == Reply::Stop {
+            break;
+        }
     }
     track
 }

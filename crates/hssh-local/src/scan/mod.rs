@@ -2,22 +2,30 @@
 
 use nalgebra::{Vector2, vector};
 
-/// One sweep of a planar laser that looks half a turn wide straight ahead and sits at the robot's origin.
+/// One sweep of a planar laser that looks straight ahead and sits at the robot's origin.
 #[derive(Clone, PartialEq, Debug)]
 pub struct Scan {
-    /// Metres along each beam, from right (−90°) to left (90°); infinite where nothing came back.
+    /// Metres along each beam, from right to left; infinite where nothing came back.
     pub ranges: Vec<f64>,
+    /// How wide it looks: radians, at most a full turn.
+    pub view: f64,
 }
 
 impl Scan {
+    /// A sweep from −90° to 90°.
+    #[must_use]
+    pub fn of_half_turn(ranges: Vec<f64>) -> Self {
+        Scan { ranges, view: std::f64::consts::PI }
+    }
+
     /// The direction of a beam in radians, counterclockwise from straight ahead.
     ///
-    /// An even number of beams is the sensor's half turn without its last beam: 180 beams are one degree
+    /// An even number of beams is the sensor's view without its last beam: 180 beams of half a turn are one degree
     /// apart, and so are 181.
     #[must_use]
     pub fn bearing(&self, beam: usize) -> f64 {
         let steps = self.ranges.len() - self.ranges.len() % 2;
-        std::f64::consts::PI * (beam as f64 / steps.max(1) as f64 - 0.5)
+        self.view * (beam as f64 / steps.max(1) as f64 - 0.5)
     }
 
     /// The unit vector along a beam, in the robot's frame.
@@ -44,7 +52,7 @@ mod tests {
     #[test]
     fn beams_span_half_a_turn() {
         let bearing =
-            |beams: usize, beam: usize| Scan { ranges: vec![1.0; beams] }.bearing(beam).to_degrees();
+            |beams: usize, beam: usize| Scan::of_half_turn(vec![1.0; beams]).bearing(beam).to_degrees();
         for (beams, last) in [(180, 89.0), (181, 90.0), (360, 89.5), (361, 90.0)] {
             assert!((bearing(beams, 0) + 90.0).abs() < 1e-12);
             assert!((bearing(beams, beams - 1) - last).abs() < 1e-12, "{beams}");
@@ -54,7 +62,7 @@ mod tests {
 
     #[test]
     fn hits_leave_out_what_did_not_come_back() {
-        let scan = Scan { ranges: vec![2.0, f64::INFINITY, 9.0, 3.0] };
+        let scan = Scan::of_half_turn(vec![2.0, f64::INFINITY, 9.0, 3.0]);
         let hits: Vec<_> = scan.hits(5.0).collect();
         assert_eq!(hits.iter().map(|hit| hit.0).collect::<Vec<_>>(), [0, 3]);
         assert!((hits[0].1 - vector![0.0, -2.0]).norm() < 1e-12);

@@ -45,6 +45,12 @@ pub enum SurveyWarning {
     /// Odometry that stands still.
     #[error("the log has no odometry: it stands still while the scans move, and scans alone lose their way")]
     NoOdometry,
+    /// Somebody stopped it.
+    #[error("the survey was interrupted: it is one of the first {scans} scans, with the loops found so far")]
+    Interrupted {
+        /// How many scans it is of.
+        scans: usize,
+    },
 }
 
 /// Why there is no survey or no exploration.

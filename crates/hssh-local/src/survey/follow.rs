@@ -3,7 +3,7 @@
 
 use hssh_metrics::Pose;
 
-use super::error::SurveyError;
+use super::error::{SurveyError, SurveyWarning};
 use super::evidence::evidence;
 use super::lost::lost;
 use super::options::SurveyOptions;
@@ -13,6 +13,7 @@ use crate::closing::close_loops;
 use crate::global_map::global_map;
 use crate::local_map::LocalMapOptions;
 use crate::matching::{TrackedScan, track};
+use crate::progress::Reply;
 use crate::route::route;
 
 /// What a survey is busy with, for those who wait.
@@ -27,24 +28,38 @@ pub enum SurveyStage {
 }
 
 /// Surveys a log: the places that the robot visited and the ways between them, from scans and raw
-/// odometry alone. `progress` is told how many scans each stage has done.
+/// odometry alone. `progress` is told how many scans each stage has done, and may stop it: then the survey is one of the
+/// scans matched so far, with the loops found so far.
 ///
 /// # Errors
 /// If the options describe no local map, there is no place, or a way cannot be measured.
-pub fn survey(
+pub fn survey<R: Into<Reply>>(
     log: &LaserLog,
     options: &SurveyOptions,
-    mut progress: impl FnMut(SurveyStage, usize),
+    mut progress: impl FnMut(SurveyStage, usize) -> R,
 ) -> Result<Survey, SurveyError> {
-    let mut track = track(log, &options.matching, |scans| progress(SurveyStage::Tracking, scans));
-    let closed = close_loops(log, &track, &options.closing, |scans| progress(SurveyStage::Closing, scans))?;
+    let mut stopped = false;
+    let mut tell = |stage, scans| {
+        let reply = progress(stage, scans).into();
+        stopped |= reply == Reply::Stop;
+        reply
+    };
+    let mut track = track(log, &options.matching, |scans| tell(SurveyStage::Tracking, scans));
+    let beginning;
+    let log = if track.scans.len() < log.scans.len() {
+        beginning = log.beginning(track.scans.len());
+        &beginning
+    } else {
+        log
+    };
+    let closed = close_loops(log, &track, &options.closing, |scans| tell(SurveyStage::Closing, scans))?;
     for (scan, pose) in track.scans.iter_mut().zip(&closed.poses) {
         *scan = TrackedScan { pose: *pose, ..*scan };
     }
     let local_map = building_options(&closed.poses, options);
     let building = global_map(log, &closed.poses, &local_map)?;
     let found = route(&building, &closed.poses, options.window, &options.route, &options.place);
-    progress(SurveyStage::Looking, log.scans.len());
+    tell(SurveyStage::Looking, log.scans.len());
     if found.visits.is_empty() {
         let metres = track.scans.last().map_or(0.0, |scan| scan.travelled);
         return Err(SurveyError::NoPlaces { metres, depth: options.place.depth() });
@@ -68,6 +83,9 @@ pub fn survey(
     let lost = lost(log, &track);
     evidence.lost = lost.len();
     warnings.extend(lost);
+    if stopped {
+        warnings.push(SurveyWarning::Interrupted { scans: log.scans.len() });
+    }
     Survey::new(visits.collect(), track, closed.closures, evidence, options, warnings)
 }
 

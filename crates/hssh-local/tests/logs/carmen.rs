@@ -4,7 +4,7 @@ use std::io::Write;
 
 use flate2::Compression;
 use flate2::write::GzEncoder;
-use hssh_local::{LaserLog, LogError, LogWarning};
+use hssh_local::{LaserLog, LaserMount, LogError, LogWarning};
 use hssh_metrics::Pose;
 
 /// Three beams are enough to see everything.
@@ -223,4 +223,71 @@ fn the_odometry_may_start_anew() {
         let log = read(&text).unwrap();
         assert_eq!((log.scans.len(), log.warnings.len()), (19, 1), "{x}");
     }
+}
+
+/// A log of a robot that turns on the spot in a room of uneven walls, with a laser that looks so wide, in degrees.
+fn turning(view: f64, beams: usize, first: &str) -> String {
+    let wall = |bearing: f64| 4.0 + (3.0 * bearing).sin() + 0.6 * (7.0 * bearing).cos();
+    let mut log = first.to_owned();
+    for step in 0..60_u32 {
+        let heading = 0.07 * f64::from(step);
+        let beam = |beam: usize| view.to_radians() * (beam as f64 / (beams - beams % 2) as f64 - 0.5);
+        let ranges: Vec<String> =
+            (0..beams).map(|index| format!("{:.3}", wall(heading + beam(index)))).collect();
+        let pose = format!("0 0 {heading:.5}");
+        log += &format!("FLASER {beams} {} {pose} {pose} {step} h {step}\n", ranges.join(" "));
+    }
+    log
+}
+
+fn view_doubted(log: &LaserLog) -> Option<(f64, bool)> {
+    log.warnings.iter().find_map(|warning| match warning {
+        LogWarning::View { seen, is_told, .. } => Some((seen.to_degrees(), *is_told)),
+        _ => None,
+    })
+}
+
+#[test]
+fn a_view_that_contradicts_the_turns_is_doubted() {
+    for (view, beams) in [(240.0, 240), (270.0, 541), (360.0, 360), (100.0, 101), (120.0, 240)] {
+        let log = turning(view, beams, "");
+        let (seen, is_told) = view_doubted(&read(&log).unwrap()).unwrap();
+        assert!((seen / view - 1.0).abs() < 0.05 && !is_told, "{view}: {seen}");
+        let known = LaserMount { view: Some(f64::to_radians(view)), pose: None };
+        let known = LaserLog::read_with(log.as_bytes(), &known).unwrap();
+        assert_eq!(view_doubted(&known), None, "{view}");
+        assert!((known.scans[0].scan.bearing(0).to_degrees() + view / 2.0).abs() < 1e-9);
+        let told = read(&turning(view, beams, &format!("PARAM laser_front_laser_fov {view} h 0\n"))).unwrap();
+        assert_eq!((view_doubted(&told), &told.scans), (None, &known.scans), "{view}");
+    }
+    for beams in [180, 181, 361] {
+        assert_eq!(view_doubted(&read(&turning(180.0, beams, "")).unwrap()), None);
+    }
+    let wrong = read(&turning(180.0, 181, "PARAM laser_front_laser_fov 270 h 0\n")).unwrap();
+    assert!(view_doubted(&wrong).is_some_and(|(_, is_told)| is_told));
+}
+
+/// What the user says of the laser's place counts more than the log.
+#[test]
+fn the_laser_sits_where_it_is_said_to() {
+    let log = "PARAM robot_frontlaser_offset 0.2 h 0\nFLASER 2 1 1 5 5 0 5 5 0 0 h 0\nFLASER 2 1 1 6 5 0 6 5 0 1 h 1\n";
+    let known = LaserMount { view: None, pose: Some(Pose::new(0.5, 0.1, 0.0)) };
+    let log = LaserLog::read_with(log.as_bytes(), &known).unwrap();
+    let off = log.scans[0].odometry.between(Pose::new(5.5, 5.1, 0.0));
+    assert!(off.translation().norm() < 1e-12);
+}
+
+#[test]
+fn a_limit_far_below_the_ranges_is_doubted() {
+    let scan = |step: u32| {
+        let ranges: Vec<String> =
+            (0..90_u32).map(|beam| format!("{:.2}", 1.0 + 0.1 * f64::from((beam + step) % 90))).collect();
+        format!("FLASER 90 {} 0 0 0 0 0 0 {step} h {step}\n", ranges.join(" "))
+    };
+    let scans: String = (0..30).map(scan).collect();
+    let is_doubted = |said: &str| {
+        let log = read(&format!("PARAM robot_front_laser_max {said} h 0\n{scans}")).unwrap();
+        log.warnings.iter().any(|warning| matches!(warning, LogWarning::LimitDoubted { .. }))
+    };
+    assert_eq!([is_doubted("5.0"), is_doubted("9.8"), is_doubted("50")], [true, false, false]);
 }

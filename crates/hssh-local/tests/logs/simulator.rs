@@ -39,7 +39,7 @@ pub(crate) fn around(boxes: &[[[f64; 2]; 2]]) -> Walls {
 
 /// What a laser of 180 beams sees from a pose; infinite beyond 30 m.
 pub(crate) fn scan(walls: &Walls, pose: Pose) -> Scan {
-    let mut scan = Scan { ranges: vec![f64::INFINITY; 180] };
+    let mut scan = Scan::of_half_turn(vec![f64::INFINITY; 180]);
     for beam in 0..scan.ranges.len() {
         let (sin, cos) = (pose.theta + scan.bearing(beam)).sin_cos();
         let hits = walls.iter().filter_map(|wall| hit([pose.x, pose.y], [cos, sin], *wall));

@@ -1,8 +1,8 @@
 //! Solvers: exact where the problem is linear, stationary elsewhere, and never silent about what has no answer.
 
 use hssh_metrics::{
-    Edge, GraphError, Information, Method, Options, Pose, PoseGraph, PoseId, SolveError, StopReason,
-    chordal_poses, odometry_poses, relax, solve,
+    Edge, GraphError, Information, Kernel, Method, Options, Pose, PoseGraph, PoseId, SolveError, StopReason,
+    chordal_poses, odometry_poses, relax, screen_closures, solve, solve_robustly,
 };
 use nalgebra::{Matrix3, Vector3};
 use rand::{RngExt, SeedableRng};
@@ -13,6 +13,10 @@ use crate::{distance, generic_covariance, random_graph};
 const METHODS: [Method; 4] =
     [Method::LinearizeOnce, Method::GaussNewton, Method::LevenbergMarquardt, Method::Safeguarded];
 const ITERATED: [Method; 3] = [Method::GaussNewton, Method::LevenbergMarquardt, Method::Safeguarded];
+
+fn sweeps(max_iterations: usize, tolerance: f64) -> Options {
+    Options { max_iterations, tolerance, ..Options::default() }
+}
 
 fn with(method: Method) -> Options {
     Options { method, ..Options::default() }
@@ -150,7 +154,7 @@ fn floating_components_are_refused_and_anchoring_them_helps() {
     }
     assert_eq!(odometry_poses(&graph), Err(expected));
     assert_eq!(chordal_poses(&graph), Err(expected));
-    assert_eq!(relax(&graph, 10, 1e-9), Err(expected));
+    assert_eq!(relax(&graph, &sweeps(10, 1e-9)), Err(expected));
     assert_eq!(graph.anchor_components(), [island]);
     assert!(solve(&graph, &Options::default()).unwrap().is_converged());
     assert_eq!(graph.components().len(), 2);
@@ -286,14 +290,33 @@ fn relaxation_agrees_with_solving() {
         let mut graph = random_graph(seed, poses, poses / 2, 0.05);
         graph.set_poses(chordal_poses(&graph).unwrap()).unwrap();
         let solution = solve(&graph, &Options::default()).unwrap();
-        let relaxation = relax(&graph, 100_000, 1e-13).unwrap();
+        let relaxation = relax(&graph, &sweeps(100_000, 1e-13)).unwrap();
         assert!(relaxation.converged);
         assert!(relaxation.chi2 >= solution.chi2 - 1e-9);
         assert!(relaxation.chi2 - solution.chi2 < 1e-6, "{} {}", relaxation.chi2, solution.chi2);
         for (relaxed, solved) in relaxation.poses.iter().zip(&solution.poses) {
             assert!(distance(*relaxed, *solved) < 1e-3);
         }
-        let few = relax(&graph, 2, 0.0).unwrap();
+        let few = relax(&graph, &sweeps(2, 0.0)).unwrap();
         assert!((few.sweeps, few.converged) == (2, false) && few.chi2 <= graph.chi2());
     }
+}
+
+/// Whoever asks it to stop gets the poses reached: those of the start, if it is asked at once.
+#[test]
+fn interrupted() {
+    let mut graph = random_graph(3, 20, 8, 0.1);
+    let start = odometry_poses(&graph).unwrap();
+    graph.set_poses(start.clone()).unwrap();
+    for method in [Method::GaussNewton, Method::LevenbergMarquardt, Method::Safeguarded] {
+        let options = Options { interrupted: || true, ..with(method) };
+        let solution = solve(&graph, &options).unwrap();
+        assert_eq!((solution.stop, &solution.poses), (StopReason::Interrupted, &start));
+        assert!(!solution.is_converged());
+    }
+    let options = Options { interrupted: || true, ..Options::default() };
+    assert_eq!(relax(&graph, &options).unwrap().sweeps, 0);
+    let robust = solve_robustly(&graph, |_| Some(Kernel::Huber(1.0)), &options).unwrap();
+    assert_eq!((robust.rounds, robust.converged), (1, false));
+    assert_eq!(screen_closures(&graph, |_| true, 11.34, &options).unwrap().rounds, 1);
 }

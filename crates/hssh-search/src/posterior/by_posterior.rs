@@ -8,9 +8,9 @@ use hssh_topology::{Derivation, Position, SimplicityFloor, Step};
 
 use crate::context::Context;
 use crate::cursor::Cursor;
-use crate::experience::Experience;
 use crate::frames::Trail;
 use crate::leaf::{Appraise, Grown, Growth, Leaf};
+use crate::limits::StopReason;
 use crate::measured::Measured;
 use crate::order::Order;
 use crate::posterior::appearance::Appearance;
@@ -202,11 +202,15 @@ impl Appraise for ByPosterior {
 
     const WEIGHS: bool = true;
 
-    fn observe(&mut self, experience: &Experience, tree: &Tree) -> Result<(), MeasurementError> {
+    fn observe(&mut self, context: Context<'_>, tree: &Tree) -> Result<Option<StopReason>, MeasurementError> {
+        let Context { experience, watch, .. } = context;
         if let Some(measured) = &mut self.measured {
             measured.observe(experience)?;
         }
-        let is_changed = self.tariff.observe(experience, self.measured.as_ref());
+        let is_changed = match self.tariff.observe(experience, self.measured.as_ref(), watch) {
+            Ok(is_changed) => is_changed,
+            Err(reason) => return Ok(Some(reason)),
+        };
         self.places.clear();
         if is_changed {
             for node in tree.nodes() {
@@ -216,7 +220,7 @@ impl Appraise for ByPosterior {
                 self.places.push(before + price);
             }
         }
-        Ok(())
+        Ok(None)
     }
 
     fn renew(&self, leaf: &mut Leaf<Self>, _: usize, _: &mut Cursor, _: &Tree, _: Context<'_>) {

@@ -7,6 +7,7 @@ mod layout;
 mod model;
 mod outlook;
 mod tariff;
+mod way;
 
 pub use appearance::Appearance;
 pub(crate) use by_posterior::{ByPosterior, NEGLIGIBLE, Nats, TIE};

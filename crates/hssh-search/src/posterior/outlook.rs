@@ -5,14 +5,15 @@
 //! another and from all visits before must be at as many new places. Either the layout is bent by more than
 //! b, or the new places are paid for.
 
-use std::collections::BTreeMap;
+use std::iter;
 use std::ops::Range;
 
-use hssh_metrics::{Pose, UncertainPose};
 use hssh_topology::{Olp, StarCatalog, StarId};
 
 use crate::experience::Experience;
+use crate::limits::{StopReason, Watch};
 use crate::measured::Measured;
+use crate::posterior::way::Way;
 
 /// The least share of a linear estimate of χ² that is taken to be its true value at least. The linear
 /// estimate of a rise of χ² holds for small turns; a layout that can turn at will may get away with less.
@@ -30,6 +31,9 @@ pub(crate) fn trust(heading_variance: f64) -> f64 {
 const FIRST_THRESHOLD: f64 = 0.5;
 const THRESHOLD_FACTOR: f64 = 1.25;
 const THRESHOLDS: usize = 40;
+
+/// Visits between two looks at the clock.
+const LOOK: usize = 32;
 
 /// Which visits can have been to one place.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -51,9 +55,28 @@ pub(crate) struct Outlook {
     /// How many visits there are.
     visits: usize,
     /// The earlier visits that odometry alone still tells something about, in order, each with the way from there to the last visit.
-    ways: Vec<(usize, UncertainPose)>,
-    /// By star: the visits to it that odometry tells nothing about any more, in order.
-    lost: BTreeMap<StarId, Vec<usize>>,
+    ways: Vec<(usize, Way)>,
+    /// The visits by what was seen: stars of one kind can be one place.
+    kinds: Vec<Kind>,
+}
+
+/// The visits at which one star was seen, up to isomorphism.
+#[derive(Clone, Debug)]
+struct Kind {
+    star: StarId,
+    first: usize,
+    /// Those that odometry tells nothing about any more, in order.
+    lost: Vec<usize>,
+}
+
+/// The earlier visits that may have been to the same place as one.
+struct Candidates {
+    /// Of which kind of star they are; those that are lost may be it at no price.
+    kind: usize,
+    /// Those of which odometry tells something, in order, with how much χ²/2 rises at least.
+    near: Vec<(usize, f64)>,
+    /// The first of all, at whatever price.
+    first: Option<usize>,
 }
 
 /// Which visits need a new place if χ²/2 stays below a threshold, by the number of travels explained: greedily in order, each visit
@@ -62,6 +85,8 @@ pub(crate) struct Outlook {
 struct Needs {
     /// By visit: the numbers of travels explained with which it needs a place, in ascending intervals.
     with: Vec<Vec<Range<usize>>>,
+    /// By number of travels explained: how many visits more need one than with one travel less.
+    changes: Vec<i32>,
     /// By number of travels explained: how many visits need one.
     counts: Vec<u32>,
 }
@@ -80,13 +105,21 @@ impl Needs {
         {
             with = without(&with, &self.with[earlier]);
         }
+        self.changes.resize(visit + 2, 0);
         for interval in &with {
-            for count in &mut self.counts[interval.clone()] {
-                *count += 1;
-            }
+            self.changes[interval.start] += 1;
+            self.changes[interval.end] -= 1;
         }
         self.with.push(with);
-        self.counts.push(0);
+    }
+
+    /// Counts the visits pushed.
+    fn count(&mut self) {
+        let sums = self.changes.iter().scan(0, |sum, change| {
+            *sum += change;
+            Some(*sum)
+        });
+        self.counts = sums.take(self.with.len()).map(|sum| sum as u32).collect();
     }
 }
 
@@ -121,84 +154,132 @@ impl Outlook {
         let steps = steps.take(if is_measured { THRESHOLDS } else { 0 });
         let thresholds: Vec<f64> = steps.chain([f64::MAX]).collect();
         let mut needs = vec![Needs::default(); thresholds.len()];
-        needs.iter_mut().for_each(|needs| needs.push(std::iter::empty()));
-        Outlook { sameness, thresholds, needs, visits: 1, ways: Vec::new(), lost: BTreeMap::new() }
+        for needs in &mut needs {
+            needs.push(iter::empty());
+            needs.count();
+        }
+        Outlook { sameness, thresholds, needs, visits: 1, ways: Vec::new(), kinds: Vec::new() }
     }
 
-    /// Takes notice of the visits that are new.
-    pub(crate) fn observe(&mut self, experience: &Experience, measured: Option<&Measured>) {
+    /// Takes notice of the visits that are new. A limit may stop it, and the next call goes on.
+    pub(crate) fn observe(
+        &mut self,
+        experience: &Experience,
+        measured: Option<&Measured>,
+        watch: &Watch,
+    ) -> Option<StopReason> {
+        if self.kinds.is_empty() {
+            self.kind_of(0, experience);
+        }
+        let mut stop = None;
         for visit in self.visits..=experience.observations.len() {
-            let prices = self.prices_of_sameness(visit, experience, measured);
+            stop = if visit.is_multiple_of(LOOK) { watch.interruption() } else { None };
+            if stop.is_some() {
+                break;
+            }
+            let Candidates { kind, near, first } = self.candidates(visit, experience, measured);
+            let lost = &self.kinds[kind].lost;
             for (&threshold, needs) in self.thresholds.iter().zip(&mut self.needs) {
-                let near = prices.iter().filter(|&&(_, price)| price <= threshold);
-                needs.push(near.map(|&(earlier, _)| earlier));
+                if threshold == f64::MAX {
+                    needs.push(first.into_iter());
+                } else {
+                    let near = near.iter().filter(|&&(_, price)| price <= threshold);
+                    needs.push(merged(lost.iter().copied(), near.map(|&(earlier, _)| earlier)));
+                }
             }
             self.visits += 1;
         }
+        self.needs.iter_mut().for_each(Needs::count);
+        stop
     }
 
-    /// The earlier visits that may have been to the same place, in order, each with how much χ²/2 rises at least if it was.
-    fn prices_of_sameness(
+    /// Which kind of star was seen on a visit; whether it is the first of it.
+    fn kind_of(&mut self, visit: usize, experience: &Experience) -> (usize, bool) {
+        let star = experience.star_of(visit);
+        let is_alike = |kind: &Kind| {
+            self.sameness == Sameness::AnyReading
+                || kind.star == star
+                || rotations(&experience.catalog, star, kind.star).next().is_some()
+        };
+        if let Some(known) = self.kinds.iter().position(is_alike) {
+            return (known, false);
+        }
+        self.kinds.push(Kind { star, first: visit, lost: Vec::new() });
+        (self.kinds.len() - 1, true)
+    }
+
+    /// Odometry tells nothing any more about where that visit was.
+    fn lose(&mut self, visit: usize, experience: &Experience) {
+        let (kind, _) = self.kind_of(visit, experience);
+        let lost = &mut self.kinds[kind].lost;
+        let place = lost.partition_point(|&other| other < visit);
+        lost.insert(place, visit);
+    }
+
+    /// The earlier visits that may have been to the same place as one.
+    fn candidates(
         &mut self,
         visit: usize,
         experience: &Experience,
         measured: Option<&Measured>,
-    ) -> Vec<(usize, f64)> {
+    ) -> Candidates {
         let before = visit - 1;
-        let Some(measured) = measured else {
-            self.lost.entry(experience.star_of(before)).or_default().push(before);
-            return self.lost_alike(experience.star_of(visit), experience);
-        };
-        let travel = &measured.travels[before];
-        let step = UncertainPose { mean: travel.pose, covariance: travel.covariance };
-        // Where double precision does not tell the two visits apart any more, nothing is claimed; nor where the heading is lost,
-        // which no travel brings back.
-        let tells = |way: &UncertainPose| trust(way.covariance.matrix()[(2, 2)]) > 0.0;
-        let mut ways = Vec::with_capacity(self.ways.len() + 1);
-        let longer = self.ways.iter().map(|(earlier, way)| (*earlier, way.compose(&step).ok()));
-        for (earlier, way) in longer.chain([(before, Some(step))]) {
-            match way.filter(tells) {
-                Some(way) => ways.push((earlier, way)),
-                None => self.lost.entry(experience.star_of(earlier)).or_default().push(earlier),
-            }
+        match measured {
+            Some(measured) => self.lengthen(&Way::of(&measured.travels[before]), before, experience),
+            None => self.lose(before, experience),
         }
-        self.ways = ways;
+        let (kind, is_first) = self.kind_of(visit, experience);
+        let Kind { first, ref lost, .. } = self.kinds[kind];
+        let mut found = Candidates { kind, near: Vec::new(), first: (!is_first).then_some(first) };
+        // Where the first visit is lost, nothing more is asked: whatever is explained, it may have been to the same place.
+        let Some(measured) = measured.filter(|_| lost.first() != Some(&0)) else { return found };
         let seen = experience.star_of(visit);
-        let mut prices = self.lost_alike(seen, experience);
-        if prices.first().is_some_and(|&(earlier, _)| earlier == 0) {
-            return prices; // whatever is explained, the first visit may have been to the same place
-        }
-        for &(earlier, way) in &self.ways {
-            let first = experience.star_of(earlier);
-            let price = |rotation| {
-                let turn = measured.frames.turn_between(visit, earlier, rotation);
-                trust(way.covariance.matrix()[(2, 2)]) * half_chi2(&way, turn)
-            };
-            let price = match self.sameness {
+        let most = self.thresholds[self.thresholds.len() - 2];
+        for (earlier, way) in &self.ways {
+            let trusted = trust(way.turn_variance);
+            if way.certainly_exceeds(most / trusted) {
+                continue;
+            }
+            let half_chi2 = match self.sameness {
                 Sameness::Isomorphic => {
-                    rotations(&experience.catalog, seen, first).map(price).fold(f64::INFINITY, f64::min)
+                    let rotations = rotations(&experience.catalog, seen, experience.star_of(*earlier));
+                    let turn = |rotation| measured.frames.turn_between(visit, *earlier, rotation);
+                    way.least_half_chi2(rotations.map(turn))
                 }
-                Sameness::AnyReading => trust(way.covariance.matrix()[(2, 2)]) * half_chi2_of_position(&way),
+                Sameness::AnyReading => way.half_chi2_of_position(),
             };
-            if price < f64::INFINITY {
-                prices.push((earlier, price));
+            let price = trusted * half_chi2;
+            if price <= most {
+                found.near.push((*earlier, price));
             }
         }
-        prices.sort_by_key(|&(earlier, _)| earlier);
-        prices
+        found
     }
 
-    /// The visits that odometry tells nothing about and at which the same was seen, at no price.
-    fn lost_alike(&self, seen: StarId, experience: &Experience) -> Vec<(usize, f64)> {
-        let is_alike = |star: StarId| {
-            self.sameness == Sameness::AnyReading
-                || rotations(&experience.catalog, seen, star).next().is_some()
-        };
-        let alike = self.lost.iter().filter(|&(&star, _)| is_alike(star));
-        let mut visits: Vec<(usize, f64)> =
-            alike.flat_map(|(_, visits)| visits.iter().map(|&visit| (visit, 0.0))).collect();
-        visits.sort_by_key(|&(visit, _)| visit);
-        visits
+    /// One travel more, from the visit `before` on.
+    fn lengthen(&mut self, step: &Way, before: usize, experience: &Experience) {
+        // Where double precision does not tell the two visits apart any more, nothing is claimed; nor where the heading is lost,
+        // which no travel brings back.
+        let tells = |way: &Way| trust(way.turn_variance) > 0.0;
+        let mut lost = Vec::new();
+        self.ways.retain_mut(|(earlier, way)| match way.then(step).filter(tells) {
+            Some(longer) => {
+                *way = longer;
+                true
+            }
+            None => {
+                lost.push(*earlier);
+                false
+            }
+        });
+        if tells(step) {
+            self.ways.push((before, *step));
+        } else {
+            lost.push(before);
+        }
+        for visit in lost {
+            self.lose(visit, experience);
+        }
     }
 
     /// The least of χ²/2 plus what new places cost, over all maps that may come of one that explains that
@@ -225,18 +306,17 @@ fn rotations(catalog: &StarCatalog, seen: StarId, first: StarId) -> impl Iterato
     (0..degree).filter(move |&rotation| catalog.matches(seen, Olp::new(0), first, Olp::new(rotation)))
 }
 
-/// χ²/2 of a way that ends where it began, in a frame turned by `turn`.
-fn half_chi2(way: &UncertainPose, turn: f64) -> f64 {
-    let off = way.mean.compose(Pose::new(0.0, 0.0, -turn));
-    let off = nalgebra::vector![off.x, off.y, off.theta];
-    0.5 * off.dot(&(way.covariance.information().matrix() * off))
-}
-
-/// The same, in whatever frame: the least over all turns.
-fn half_chi2_of_position(way: &UncertainPose) -> f64 {
-    let off = way.mean.translation();
-    let covariance = way.covariance.matrix().fixed_view::<2, 2>(0, 0).into_owned();
-    covariance.try_inverse().map_or(0.0, |information| 0.5 * off.dot(&(information * off)))
+/// Two ascending sequences as one.
+fn merged(
+    one: impl Iterator<Item = usize>,
+    other: impl Iterator<Item = usize>,
+) -> impl Iterator<Item = usize> {
+    let (mut one, mut other) = (one.peekable(), other.peekable());
+    iter::from_fn(move || match (one.peek(), other.peek()) {
+        (Some(first), Some(second)) if second < first => other.next(),
+        (Some(_), _) => one.next(),
+        (None, _) => other.next(),
+    })
 }
 
 #[cfg(test)]

@@ -4,6 +4,7 @@ use hssh_causal::Odometry;
 use hssh_topology::{Observation, SimplicityFloor, StarId, TopologicalMap};
 
 use crate::experience::Experience;
+use crate::limits::{StopReason, Watch};
 use crate::measured::Measured;
 use crate::posterior::cost::Cost;
 use crate::posterior::model::{Corridor, MapPrior, Metrical, PlacePrior, PosteriorModel};
@@ -52,8 +53,16 @@ impl Tariff {
     }
 
     /// Takes notice of the travels that are new; whether the prices of old ones changed.
-    pub(crate) fn observe(&mut self, experience: &Experience, measured: Option<&Measured>) -> bool {
-        self.outlook.observe(experience, measured);
+    ///
+    /// # Errors
+    /// If a limit stopped it; the next call goes on.
+    pub(crate) fn observe(
+        &mut self,
+        experience: &Experience,
+        measured: Option<&Measured>,
+        watch: &Watch,
+    ) -> Result<bool, StopReason> {
+        self.outlook.observe(experience, measured, watch).map_or(Ok(()), Err)?;
         self.count_branches(experience);
         let before = self.corridor;
         self.corridor = match self.model.metrical {
@@ -77,7 +86,7 @@ impl Tariff {
             _ => 0.0,
         }));
         self.look_ahead();
-        is_changed
+        Ok(is_changed)
     }
 
     /// How many travels there are.

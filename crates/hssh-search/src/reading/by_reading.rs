@@ -11,6 +11,7 @@ use crate::context::Context;
 use crate::cursor::Cursor;
 use crate::experience::Experience;
 use crate::leaf::{Appraise, Grown, Growth, Leaf};
+use crate::limits::StopReason;
 use crate::measured::{Measured, MeasuredTravel};
 use crate::posterior::{Cost, Layout, Metrical, NEGLIGIBLE, Nats, PosteriorModel, Sameness, TIE, Tariff};
 use crate::reading::geometry::{Geometry, Measurement};
@@ -156,12 +157,12 @@ impl Appraise for ByReading {
 
     const WEIGHS: bool = true;
 
-    fn observe(&mut self, experience: &Experience, _: &Tree) -> Result<(), MeasurementError> {
+    fn observe(&mut self, context: Context<'_>, _: &Tree) -> Result<Option<StopReason>, MeasurementError> {
+        let Context { experience, watch, .. } = context;
         if let Some(measured) = &mut self.measured {
             measured.observe(experience)?;
         }
-        self.tariff.observe(experience, self.measured.as_ref());
-        Ok(())
+        Ok(self.tariff.observe(experience, self.measured.as_ref(), watch).err())
     }
 
     fn renew(&self, leaf: &mut Leaf<Self>, _: usize, _: &mut Cursor, _: &Tree, _: Context<'_>) {

@@ -140,7 +140,7 @@ impl Reader {
         let appraiser = ByReading::new(model, self.reading, self.bearing_deviation, &experience);
         let proving = Proving { best: self.best, rest: 1.0, patience: self.patience };
         let mut engine = Engine::new(appraiser, Order::Cyclic, Goal::AnyMap, proving, context)?;
-        let stop = engine.advance(context);
+        let stop = engine.observe(context)?.unwrap_or_else(|| engine.advance(context));
         if let Some((travels, problem)) = engine.unsolvable.filter(|_| engine.found.is_empty()) {
             return Err(MapperError::Unsolvable { travels, problem });
         }

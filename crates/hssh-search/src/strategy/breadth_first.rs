@@ -1,5 +1,7 @@
 //! Breadth-first: the complete fringe after every observation, as in the thesis (section 2.3.1).
 
+use std::time::Duration;
+
 use crate::context::Context;
 use crate::engine::Engine;
 use crate::leaf::{Appraise, Growth, Leaf};
@@ -8,9 +10,25 @@ use crate::limits::StopReason;
 /// Hypotheses between two looks at the limits.
 const LOOK: usize = 256;
 
+/// This part of a limit on time is for looking through what was found…
+const FOR_LOOKING: u32 = 4;
+/// …and so much time is after an interruption.
+const PATIENCE: Duration = Duration::from_millis(300);
+
 impl<A: Appraise> Engine<A> {
     /// Grows the tree level by level to the last travel.
     pub(crate) fn breadth_first(&mut self, context: Context<'_>) -> StopReason {
+        let reserve = context.watch.time().map_or(PATIENCE, |time| time / FOR_LOOKING);
+        let watch = context.watch.sooner(reserve);
+        let stop = self.grow_levels(Context { watch: &watch, ..context });
+        let is_pressed = matches!(stop, StopReason::TimeLimit | StopReason::Interrupted) && !A::WEIGHS;
+        let patience = if stop == StopReason::Interrupted { PATIENCE } else { reserve };
+        self.shown =
+            is_pressed.then(|| self.fringe.showable(&self.tree, context, &self.tally.levels, patience));
+        stop
+    }
+
+    fn grow_levels(&mut self, context: Context<'_>) -> StopReason {
         while self.fringe.depth < context.travels() {
             let grown = if A::WEIGHS {
                 self.grow_appraised(context)

@@ -7,7 +7,7 @@ use hssh_search::{
     Proving, RankedMap, Score, place_by_odometry,
 };
 use hssh_topology::{Axioms, Simplicity};
-use hssh_world::{DriftModel, cover, grid, random_planar, snake};
+use hssh_world::{DriftModel, cover, grid, random_planar, random_walk, snake};
 
 const AREA: f64 = 600.0;
 
@@ -246,4 +246,24 @@ fn a_travel_without_odometry_is_named() {
     let exploration = world.explore(&world.route_through(&snake(2, 2)).unwrap()).unwrap();
     let problem = proving(PosteriorModel::THESIS).explain(&exploration).unwrap_err();
     assert_eq!(problem.to_string(), "travel 1 has no odometry; the posterior needs it for every travel");
+}
+
+/// One input, one verdict: what is searched after the proof withdraws nothing, finds the same map, and has an end.
+#[test]
+fn what_comes_after_the_proof_withdraws_nothing_and_has_an_end() {
+    for (side, travels, seed) in [(4, 60, 1), (5, 100, 1), (5, 80, 2)] {
+        let world = grid(side, side, 8.0).unwrap();
+        let route = random_walk(&world, travels, seed);
+        let exploration = world.explore_with_odometry(&route, &DriftModel::default(), seed).unwrap();
+        let model = PosteriorModel::evidence(&exploration).unwrap();
+        let search = |rest: f64| {
+            let builder = Mapper::builder().axioms(planar()).order(Order::Cyclic).posterior(model);
+            builder.proving(Proving { best: 1, rest, patience: None }).explain(&exploration).unwrap()
+        };
+        let (short, long) = (search(1.0), search(1e-9));
+        let (proved, kept) = (short.report(), long.report());
+        assert!(proved.is_optimal && kept.is_optimal, "{side} {travels} {seed}");
+        assert_eq!(short.branch(short.maps(1)[0].node), long.branch(long.maps(1)[0].node));
+        assert!(kept.expanded <= 2 * proved.expanded + 2_100, "{} {}", proved.expanded, kept.expanded);
+    }
 }

@@ -5,6 +5,7 @@
 //! it, right of it, left of it. They only grow, so that a link adds to them what it newly reaches.
 
 use std::collections::BTreeSet;
+use std::ops::Range;
 
 use crate::ids::{PathId, PlaceId};
 
@@ -52,7 +53,7 @@ impl Default for Boundaries {
 }
 
 impl Boundaries {
-    fn range(&self, path: PathId, set: Set) -> std::ops::Range<usize> {
+    fn range(&self, path: PathId, set: Set) -> Range<usize> {
         let start = (path.index() * SETS + set as usize) * self.stride;
         start..start + self.stride
     }
@@ -144,9 +145,17 @@ impl Boundaries {
         [self.words[at], self.words[at + self.stride], self.words[at + 2 * self.stride]]
     }
 
-    /// One side of `path` gains the places on `gained`.
-    pub(super) fn gain(&mut self, path: PathId, side: Set, gained: PathId) {
-        for word in 0..self.stride {
+    /// From which word to which there are places on a path.
+    pub(super) fn span(&self, path: PathId) -> Range<usize> {
+        let on = self.on(path);
+        let is_any = |&word: &u64| word != 0;
+        let first = on.iter().position(is_any).unwrap_or(on.len());
+        first..on.iter().rposition(is_any).map_or(first, |last| last + 1)
+    }
+
+    /// One side of `path` gains the places on `gained`, which are in those words.
+    pub(super) fn gain(&mut self, path: PathId, side: Set, gained: PathId, words: Range<usize>) {
+        for word in words {
             let old = self.triple(path, word);
             let mut new = old;
             new[side as usize] |= self.on(gained)[word];

@@ -1,5 +1,7 @@
 //! How a map grows by places and links, and how that is taken back (sections 2.1.3 and 2.3).
 
+use std::ops::Range;
+
 use super::boundaries::Set;
 use super::record::{
     Absorbed, Change, Direction, Joined, OlpRecord, PathRecord, PathState, PlaceRecord, Tally,
@@ -107,21 +109,23 @@ impl TopologicalMap {
 
     /// The paths that cross the path ending in `end` see, beyond `end`, the places of `path`.
     pub(super) fn see_path_beyond(&mut self, end: MapOlp, path: PathId) {
-        self.walk_inward(end, |map, toward| map.see_along(toward, path));
+        let words = self.boundaries.span(path);
+        self.walk_inward(end, |map, toward| map.see_along(toward, path, &words));
     }
 
     /// A path becomes circular: going either way from any of its places one comes by all of them.
     pub(super) fn see_path_from_itself(&mut self, end: MapOlp) {
         let path = self.path(end);
+        let words = self.boundaries.span(path);
         self.walk_inward(end, |map, toward| {
-            map.see_along(toward, path);
-            map.see_along(map.opposite(toward), path);
+            map.see_along(toward, path, &words);
+            map.see_along(map.opposite(toward), path, &words);
         });
     }
 
     /// Whoever leaves the place of `exit` by `exit` now comes by the places of `reached`: they are
-    /// right or left of every other path through that place.
-    fn see_along(&mut self, exit: MapOlp, reached: PathId) {
+    /// right or left of every other path through that place. The places are in those words of the set.
+    fn see_along(&mut self, exit: MapOlp, reached: PathId, words: &Range<usize>) {
         let PlaceRecord { first, .. } = self.places[self.place(exit).index()];
         let local = |olp: MapOlp| Olp::new(olp.number() - first);
         let olps = self.olps_of(self.place(exit));
@@ -133,7 +137,7 @@ impl TopologicalMap {
                 let clockwise = |to: MapOlp| local(downstream).turn_to(local(to), degree);
                 let is_right = clockwise(exit) < clockwise(record.opposite);
                 let side = if is_right { Set::Right } else { Set::Left };
-                self.boundaries.gain(record.path, side, reached);
+                self.boundaries.gain(record.path, side, reached, words.clone());
             }
         }
     }

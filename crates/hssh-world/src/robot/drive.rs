@@ -82,6 +82,21 @@ pub fn drive(
     options: &RobotOptions,
     seed: u64,
 ) -> Result<Drive, DriveError> {
+    drive_until(grid, start, strategy, options, seed, &|| false)
+}
+
+/// Drives a robot as [`drive`] does, until somebody wants it to stop: that is asked before every command.
+///
+/// # Errors
+/// As [`drive`].
+pub fn drive_until(
+    grid: &OccupancyGrid,
+    start: Option<[f64; 2]>,
+    strategy: Strategy,
+    options: &RobotOptions,
+    seed: u64,
+    interrupted: &dyn Fn() -> bool,
+) -> Result<Drive, DriveError> {
     let graph = PlaceGraph::new(grid, &options.places)?;
     let first = graph.places.first().ok_or(DriveError::NoPlaces)?;
     if let Strategy::Visit(list) = &strategy
@@ -92,7 +107,7 @@ pub fn drive(
     let start = start.unwrap_or(first.center);
     let grid = without_clutter(&graph);
     check_start(&grid, &graph, start, options)?;
-    let mut run = Run::new(&grid, &graph, start, options, seed)?;
+    let mut run = Run::new(&grid, &graph, start, options, seed, interrupted)?;
     let ending = run.travel(strategy).err().unwrap_or(Ending::Done);
     let (moments, stops) = run.into_log();
     Ok(Drive { moments, stops, ending, grid, graph, max_range: options.laser.max_range })

@@ -57,7 +57,7 @@ impl Laser {
     }
 
     fn half(&self, sweep: &[f64], first: usize) -> Scan {
-        Scan { ranges: (0..self.beams).map(|beam| sweep[(first + beam) % sweep.len()]).collect() }
+        Scan::of_half_turn((0..self.beams).map(|beam| sweep[(first + beam) % sweep.len()]).collect())
     }
 
     /// Steps from beam to beam in half a turn.

@@ -30,7 +30,7 @@ mod run;
 mod strategy;
 
 pub use body::touches;
-pub use drive::{Drive, DriveError, drive};
+pub use drive::{Drive, DriveError, drive, drive_until};
 pub use laser::Laser;
 pub use odometer::Odometer;
 pub use options::RobotOptions;

@@ -48,12 +48,15 @@ pub enum Ending {
     Lost(ControlLaw),
     /// The robot would have run into something.
     Collision,
+    /// Somebody stopped it.
+    Interrupted,
 }
 
 impl fmt::Display for Ending {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Ending::Done => write!(f, "everything that was asked for was done"),
+            Ending::Interrupted => write!(f, "the drive was interrupted; its log is that of the way so far"),
             Ending::NoWayOn => write!(f, "no way on is known from where the robot centered itself"),
             Ending::Lost(ControlLaw::Leave { .. }) => write!(f, "the robot did not get out of a place"),
             Ending::Lost(ControlLaw::FollowMidline { .. }) => {

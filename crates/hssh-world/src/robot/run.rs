@@ -31,6 +31,7 @@ pub(super) struct Run<'a> {
     grid: &'a OccupancyGrid,
     graph: &'a PlaceGraph,
     options: &'a RobotOptions,
+    interrupted: &'a dyn Fn() -> bool,
     outlook: Outlook,
     pose: Pose,
     odometry: Pose,
@@ -54,6 +55,7 @@ impl<'a> Run<'a> {
         start: [f64; 2],
         options: &'a RobotOptions,
         seed: u64,
+        interrupted: &'a dyn Fn() -> bool,
     ) -> Result<Self, LatticeError> {
         let stream = |number| {
             let mut random = ChaCha8Rng::seed_from_u64(seed);
@@ -64,6 +66,7 @@ impl<'a> Run<'a> {
             grid,
             graph,
             options,
+            interrupted,
             outlook: Outlook::new(options.outlook)?,
             pose: Pose::new(start[0], start[1], 0.0),
             odometry: Pose::IDENTITY,
@@ -236,6 +239,9 @@ impl<'a> Run<'a> {
     /// Logs what is perceived, moves for one period, and looks around.
     fn obey(&mut self, command: Command, percept: &Percept) -> Result<(), Ending> {
         self.log(percept);
+        if (self.interrupted)() {
+            return Err(Ending::Interrupted);
+        }
         let twist = vector![command.speed, 0.0, command.turn] * self.options.period;
         let moved = self.pose.compose(Pose::exp(twist));
         if touches(self.grid, [moved.x, moved.y], self.options.handling.radius) {

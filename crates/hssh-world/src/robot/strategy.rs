@@ -11,7 +11,8 @@ use rand_chacha::ChaCha8Rng;
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub enum Strategy {
     /// A way that was not travelled yet, else the fewest travels to one; it ends when all were travelled but those
-    /// that led elsewhere than the map says, twice.
+    /// that led elsewhere than the map says, twice. Where the robot does not see a way that the map has, twice, it does not
+    /// come back for it, and all is done only if it was travelled from its other end.
     Cover,
     /// Any way but back, unless there is no other.
     Wander,
@@ -39,13 +40,22 @@ pub(super) struct Guide<'a> {
     travelled: BTreeSet<usize>,
     /// How often connections led elsewhere.
     missed: BTreeMap<usize, usize>,
+    /// How often the robot was at an end of a connection and did not see it.
+    unseen: BTreeMap<(PlaceNumber, Olp), usize>,
     /// How many places of the list were visited.
     visited: usize,
 }
 
 impl<'a> Guide<'a> {
     pub(super) fn new(graph: &'a PlaceGraph, strategy: Strategy) -> Self {
-        Guide { graph, strategy, travelled: BTreeSet::new(), missed: BTreeMap::new(), visited: 0 }
+        Guide {
+            graph,
+            strategy,
+            travelled: BTreeSet::new(),
+            missed: BTreeMap::new(),
+            unseen: BTreeMap::new(),
+            visited: 0,
+        }
     }
 
     /// The way on from a place that the robot entered by `entry`, of those whose exits it sees; none if it is
@@ -57,7 +67,10 @@ impl<'a> Guide<'a> {
         is_seen: impl Fn(Olp) -> bool,
         random: &mut ChaCha8Rng,
     ) -> Option<Plan> {
-        let ways: Vec<Plan> = self.ways(here).filter(|plan| is_seen(plan.exit)).collect();
+        let (ways, hidden): (Vec<Plan>, Vec<Plan>) = self.ways(here).partition(|plan| is_seen(plan.exit));
+        for plan in hidden {
+            *self.unseen.entry((here, plan.exit)).or_default() += 1;
+        }
         let chosen = match &self.strategy {
             Strategy::Cover => {
                 let new: Vec<Plan> =
@@ -89,20 +102,37 @@ impl<'a> Guide<'a> {
     /// Whether the strategy has come to its end, the robot being here.
     pub(super) fn is_done(&self, here: PlaceNumber) -> bool {
         match &self.strategy {
-            Strategy::Cover => self.toward_new(here, &self.ways(here).collect::<Vec<_>>()).is_none(),
+            Strategy::Cover => {
+                let ways: Vec<Plan> = self.ways(here).collect();
+                self.toward_new(here, &ways).is_none() && !self.gave_up()
+            }
             Strategy::Wander => false,
             Strategy::Visit(list) => self.visited >= list.len(),
         }
     }
 
-    /// The connections of a place, but for those that led elsewhere too often.
+    /// Whether a connection was not travelled because the robot did not see it.
+    fn gave_up(&self) -> bool {
+        let is_given_up = |end: (PlaceNumber, Olp)| self.is_hidden(end);
+        let connections = self.graph.connections.iter().enumerate();
+        let mut untravelled = connections.filter(|(way, _)| !self.travelled.contains(way));
+        untravelled.any(|(_, connection)| connection.ends.into_iter().any(is_given_up))
+    }
+
+    /// Whether the robot was at an end of a connection often enough without seeing it.
+    fn is_hidden(&self, end: (PlaceNumber, Olp)) -> bool {
+        self.unseen.get(&end).is_some_and(|&often| often >= MOST_MISSES)
+    }
+
+    /// The connections of a place, but for those that led elsewhere too often, or were not seen too often.
     fn ways(&self, here: PlaceNumber) -> impl Iterator<Item = Plan> + '_ {
         let is_there = |way: &usize| self.missed.get(way).is_none_or(|&missed| missed < MOST_MISSES);
         let connections = self.graph.connections.iter().enumerate().filter(move |(way, _)| is_there(way));
         connections.flat_map(move |(way, connection)| {
             let [from, to] = connection.ends;
             let both = [(from, to), (to, from)].into_iter().filter(move |(from, _)| from.0 == here);
-            both.map(move |(from, to)| Plan { way, exit: from.1, to })
+            let seen = both.filter(move |(from, _)| !self.is_hidden(*from));
+            seen.map(move |(from, to)| Plan { way, exit: from.1, to })
         })
     }
 

@@ -40,7 +40,12 @@ impl Answer {
         let is_serious = |warning: &&AnswerWarning| {
             matches!(
                 warning.kind,
-                WarningKind::ImprobableTravel | WarningKind::Lost | WarningKind::NoOdometry
+                WarningKind::ImprobableTravel
+                    | WarningKind::Lost
+                    | WarningKind::NoOdometry
+                    | WarningKind::LaserView
+                    | WarningKind::Questionable
+                    | WarningKind::SurveyInterrupted
             )
         };
         if let Some(warning) = self.warnings.iter().find(is_serious) {

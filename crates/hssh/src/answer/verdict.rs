@@ -65,9 +65,18 @@ impl Verdict {
             _ => "them",
         };
         let body = match kind {
-            VerdictKind::NoneYet => {
-                format!("the search stopped before it found a map that explains {what}.")
-            }
+            VerdictKind::NoneYet => format!(
+                "the search stopped before it found a map that explains {what}; the hypotheses that got farthest explain \
+                 {} of {}.",
+                search
+                    .levels
+                    .iter()
+                    .filter(|level| level.nodes > 0)
+                    .map(|level| level.travels)
+                    .max()
+                    .unwrap_or(0),
+                counted(input.considered as usize, "travel")
+            ),
             VerdictKind::NoClosedMap => format!(
                 "no closed map explains {what}; {} left with pending gateways.",
                 match search.rejected {
@@ -161,6 +170,9 @@ fn found(search: &SearchSummary, certificate: &CertificateSummary, kind: Verdict
         },
         (VerdictKind::StoppedEarly, SearchOrder::Count) => {
             format!("stopped early, so far {maps} {explain} everything; the rest was not counted.")
+        }
+        (VerdictKind::StoppedEarly, order) if *order != SearchOrder::BreadthFirst => {
+            "this is the best of the hypotheses that got farthest; the search stopped early.".to_owned()
         }
         (VerdictKind::StoppedEarly, _) => format!("{maps} {explain} {what}; the search stopped early."),
         _ if *stop == StopReason::Found => {

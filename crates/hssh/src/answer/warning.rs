@@ -20,6 +20,8 @@ pub enum WarningKind {
     RangeLimit,
     /// The laser is not at the robot's axis.
     LaserPose,
+    /// The scans do not turn as the odometry does: the laser looks wider or less wide than was taken for granted.
+    LaserView,
     /// Odometry that is possible and hardly meant, such as degrees for radians.
     Questionable,
     /// Scans that look like earlier ones where the rest of the log contradicts that.
@@ -30,6 +32,8 @@ pub enum WarningKind {
     Lost,
     /// Odometry that stands still while the scans move.
     NoOdometry,
+    /// The survey was stopped before its end.
+    SurveyInterrupted,
     /// The best map bends a measured travel by more than its covariance can explain.
     ImprobableTravel,
     /// The places of a map have no poses although travels were measured.

@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use clap::{Args, ValueEnum};
-use hssh::pipeline::PlaceChoice;
+use hssh::pipeline::{LaserChoice, PlaceChoice};
 use hssh_local::{PlaceOptions, RegionOptions, RoadmapOptions, UnknownSpace};
 
 #[derive(Debug, Args)]
@@ -24,6 +24,8 @@ pub(crate) struct ExploreArguments {
     pub(crate) debug_dir: Option<PathBuf>,
     #[command(flatten)]
     pub(crate) places: PlaceArguments,
+    #[command(flatten)]
+    pub(crate) laser: LaserArguments,
 }
 
 #[derive(Debug, Args)]
@@ -81,6 +83,8 @@ pub(crate) struct StarsArguments {
     pub(crate) at: Option<[f64; 2]>,
     #[command(flatten)]
     pub(crate) places: PlaceArguments,
+    #[command(flatten)]
+    pub(crate) laser: LaserArguments,
     /// Unknown cells are free, as in floor plans that only have walls.
     #[arg(long)]
     pub(crate) unknown_is_free: bool,
@@ -141,6 +145,32 @@ impl StarsArguments {
     }
 }
 
+/// How a log's laser looks and sits.
+#[derive(Debug, Args)]
+#[command(next_help_heading = "Laser")]
+pub(crate) struct LaserArguments {
+    /// How wide the laser of a log looks [default: as the log says, else 180].
+    #[arg(long, value_name = "DEGREES", value_parser = view)]
+    pub(crate) fov: Option<f64>,
+    /// Where the laser sits: metres ahead of the robot's axis, metres to its left, degrees turned to the left
+    /// [default: as the log says, else 0,0,0].
+    #[arg(long, value_name = "X,Y,DEGREES", value_parser = mount, allow_hyphen_values = true)]
+    pub(crate) laser_pose: Option<(f64, f64, f64)>,
+}
+
+impl LaserArguments {
+    /// The choice that they make.
+    pub(crate) fn choice(&self) -> LaserChoice {
+        LaserChoice { view: self.fov, pose: self.laser_pose }
+    }
+
+    /// What options become by them.
+    pub(crate) fn apply(&self, laser: &mut LaserChoice) {
+        laser.view = self.fov.or(laser.view);
+        laser.pose = self.laser_pose.or(laser.pose);
+    }
+}
+
 /// What counts as a place.
 #[derive(Debug, Args)]
 #[command(next_help_heading = "Places")]
@@ -185,6 +215,21 @@ fn export(text: &str) -> Result<(ExportKind, PathBuf), String> {
     let usage = || format!("write KIND=FILE, where KIND is one of {}", kinds());
     let (kind, file) = text.split_once('=').filter(|(_, file)| !file.is_empty()).ok_or_else(usage)?;
     Ok((ExportKind::from_str(kind, false).map_err(|_| usage())?, PathBuf::from(file)))
+}
+
+fn view(text: &str) -> Result<f64, String> {
+    let degrees = text.parse().ok().filter(|degrees| (1.0..=360.0).contains(degrees));
+    degrees.ok_or_else(|| "write an angle between 1 and 360 degrees, like 240".to_owned())
+}
+
+fn mount(text: &str) -> Result<(f64, f64, f64), String> {
+    let numbers: Option<Vec<f64>> = text.split(',').map(|number| number.trim().parse().ok()).collect();
+    match numbers.as_deref() {
+        Some(&[x, y, turn]) if x.abs() <= 10.0 && y.abs() <= 10.0 && turn.abs() <= 360.0 => Ok((x, y, turn)),
+        _ => {
+            Err("write two numbers of metres, no more than 10, and one of degrees, like 0.35,0,0".to_owned())
+        }
+    }
 }
 
 fn length(text: &str) -> Result<f64, String> {

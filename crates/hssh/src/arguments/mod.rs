@@ -10,7 +10,9 @@ use hssh::pipeline::MappingOptions;
 
 use crate::failure::Failure;
 
-pub(crate) use local::{ExploreArguments, ExportKind, PlaceArguments, SimulateArguments, StarsArguments};
+pub(crate) use local::{
+    ExploreArguments, ExportKind, LaserArguments, PlaceArguments, SimulateArguments, StarsArguments,
+};
 pub(crate) use search::SearchArguments;
 
 /// Topological maps of places that look alike: all that explain an exploration, ranked and drawn.
@@ -40,7 +42,7 @@ pub(crate) enum Command {
     /// Check by itself what a proof rests on: a certificate that `map --certificate` wrote.
     Verify(VerifyArguments),
     /// Print the options that --options reads, each with its default.
-    Options,
+    Options(OptionsArguments),
 }
 
 #[derive(Debug, Args)]
@@ -105,6 +107,15 @@ pub(crate) struct MapArguments {
     pub(crate) debug_dir: Option<PathBuf>,
     #[command(flatten)]
     pub(crate) places: PlaceArguments,
+    #[command(flatten)]
+    pub(crate) laser: LaserArguments,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct OptionsArguments {
+    /// Print one JSON object.
+    #[arg(long)]
+    pub(crate) json: bool,
 }
 
 #[derive(Debug, Args)]
@@ -141,6 +152,8 @@ pub(crate) struct ExplainArguments {
     pub(crate) search: SearchArguments,
     #[command(flatten)]
     pub(crate) places: PlaceArguments,
+    #[command(flatten)]
+    pub(crate) laser: LaserArguments,
     /// Which map of the ranking to explain, the best being 1.
     #[arg(long, default_value_t = 1, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
     pub(crate) rank: u32,
@@ -254,7 +267,7 @@ pub(crate) fn not_negative(text: &str) -> Result<f64, String> {
 impl MapArguments {
     /// What is asked for: the options of a file, overridden by flags.
     pub(crate) fn options(&self) -> Result<MappingOptions, Failure> {
-        let mut options = self.search.options(&self.places)?;
+        let mut options = self.search.options(&self.places, &self.laser)?;
         if let Some(likeness) = self.likeness {
             options.posterior.likeness = likeness;
         }

@@ -7,7 +7,7 @@ use clap::Args;
 use hssh::pipeline::{GenusOrder, MappingOptions, MetricalScore, PriorKind, SearchMethod};
 use hssh_topology::Simplicity;
 
-use super::{PlaceArguments, positive};
+use super::{LaserArguments, PlaceArguments, positive};
 use crate::failure::Failure;
 
 #[derive(Debug, Args)]
@@ -102,9 +102,14 @@ pub(crate) struct AxiomArguments {
 
 impl SearchArguments {
     /// What is asked for: the options of the file, overridden by flags.
-    pub(crate) fn options(&self, places: &PlaceArguments) -> Result<MappingOptions, Failure> {
+    pub(crate) fn options(
+        &self,
+        places: &PlaceArguments,
+        laser: &LaserArguments,
+    ) -> Result<MappingOptions, Failure> {
         let mut options = self.file()?;
         places.apply(&mut options.places);
+        laser.apply(&mut options.laser);
         self.posterior.apply(&mut options);
         self.axioms.apply(&mut options);
         options.search.method = self.search.or(options.search.method);

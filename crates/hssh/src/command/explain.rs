@@ -10,7 +10,7 @@ use crate::input::read_input;
 use crate::output::{print, print_json};
 
 pub(crate) fn run(arguments: &ExplainArguments) -> Result<Status, Failure> {
-    let mut options = arguments.search.options(&arguments.places)?;
+    let mut options = arguments.search.options(&arguments.places, &arguments.laser)?;
     options.listed = Some(arguments.rank as usize);
     if options.search.method == Some(SearchMethod::Count) {
         let help = "counting keeps no maps to explain: choose another --search";

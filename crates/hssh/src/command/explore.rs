@@ -8,9 +8,11 @@ use crate::arguments::ExploreArguments;
 use crate::failure::{Failure, Status};
 use crate::input::{failed, read_surveyed, refuse_partial};
 use crate::output::{Written, check_folder, check_outputs, print, print_json, write_file};
+use crate::progress::is_interrupted;
 
 pub(crate) fn run(arguments: &ExploreArguments) -> Result<Status, Failure> {
-    let options = MappingOptions { places: arguments.places.choice(), ..MappingOptions::default() };
+    let (laser, places) = (arguments.laser.choice(), arguments.places.choice());
+    let options = MappingOptions { laser, places, ..MappingOptions::default() };
     check_outputs(&[&arguments.log], [arguments.output.as_ref()])?;
     check_folder(arguments.debug_dir.as_ref())?;
     let surveyed = read_surveyed(&arguments.log, &options)?;
@@ -36,5 +38,5 @@ pub(crate) fn run(arguments: &ExploreArguments) -> Result<Status, Failure> {
         written.note(draw_survey(&surveyed.log, &surveyed.survey, folder));
     }
     written.done()?;
-    Ok(Status::Found)
+    Ok(if is_interrupted() { Status::Stopped } else { Status::Found })
 }

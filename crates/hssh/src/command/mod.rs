@@ -13,10 +13,16 @@ pub(crate) mod verify;
 
 use hssh::pipeline::MappingOptions;
 
+use crate::arguments::OptionsArguments;
 use crate::failure::{Failure, Status};
+use crate::output::{print, print_json};
 
 /// `hssh options`: the file of options with its defaults.
-pub(crate) fn print_options() -> Result<Status, Failure> {
-    crate::output::print(MappingOptions::DEFAULTS)?;
+pub(crate) fn print_options(arguments: &OptionsArguments) -> Result<Status, Failure> {
+    if arguments.json {
+        print_json(&MappingOptions::default())?;
+    } else {
+        print(MappingOptions::DEFAULTS)?;
+    }
     Ok(Status::Found)
 }

@@ -6,13 +6,14 @@ use hssh::account::DriveAccount;
 use hssh_draw::{GridPicture, TOLD_WAY, TRUE_WAY, draw_grid};
 use hssh_local::{OccupancyGrid, PlaceNumber, UnknownSpace};
 use hssh_metrics::Pose;
-use hssh_world::robot::{Drive, Ending, Moment, RobotOptions, Strategy, drive};
+use hssh_world::robot::{Drive, Ending, Moment, RobotOptions, Strategy, drive_until};
 use hssh_world::{floor_plan, floors};
 
 use crate::arguments::SimulateArguments;
 use crate::failure::{Failure, Status};
 use crate::input::read_grid;
 use crate::output::{Written, check_outputs, print, to_json, write_file};
+use crate::progress::{is_interrupted, keep_on_signals};
 
 /// Metres per cell of the floors that come with the program.
 const RESOLUTION: f64 = 0.1;
@@ -28,7 +29,8 @@ pub(crate) fn run(arguments: &SimulateArguments) -> Result<Status, Failure> {
         [] => Strategy::Cover,
         places => Strategy::Visit(places.iter().copied().map(PlaceNumber).collect()),
     };
-    let drive = drive(&grid, arguments.start, strategy, &robot, arguments.seed)
+    keep_on_signals();
+    let drive = drive_until(&grid, arguments.start, strategy, &robot, arguments.seed, &is_interrupted)
         .map_err(|error| Failure::Usage(format!("{name}: {error}")))?;
     let account = DriveAccount::new(&name, &drive);
     print(&if arguments.json { to_json(&account)? } else { account.to_string() })?;

@@ -17,6 +17,7 @@ use crate::arguments::StarsArguments;
 use crate::failure::{Failure, Status};
 use crate::input::{Source, read_grid, surveyed};
 use crate::output::{check_outputs, print, print_json, write_file};
+use crate::progress::is_interrupted;
 
 /// How far the part of the map that is looked at around one point reaches, in metres, beyond the shallowest way out.
 const MARGIN: f64 = 6.5;
@@ -81,8 +82,11 @@ fn refuse_region_options(options: &StarsArguments, given: &str) -> Result<(), Fa
 /// The places that a robot visited, in the frame of its track.
 fn along(options: &StarsArguments, source: Source) -> Result<Status, Failure> {
     let usual = MappingOptions::default();
-    let SurveyedLog { log, survey } =
-        surveyed(&options.map, source, &MappingOptions { places: options.places.choice(), ..usual })?;
+    let SurveyedLog { log, survey } = surveyed(
+        &options.map,
+        source,
+        &MappingOptions { laser: options.laser.choice(), places: options.places.choice(), ..usual },
+    )?;
     let clearance = |visit: &Visit| {
         let lattice = *visit.grid.lattice();
         let field = DistanceField::new(lattice, |index| visit.grid.cells()[index] == Occupancy::Occupied);
@@ -102,7 +106,7 @@ fn along(options: &StarsArguments, source: Source) -> Result<Status, Failure> {
         let places = survey.visits.iter().map(|visit| (place(visit), &visit.star)).collect();
         write_file(file, &draw_grid(&grid, &GridPicture { places, ..GridPicture::default() }))?;
     }
-    Ok(Status::Found)
+    Ok(if is_interrupted() { Status::Stopped } else { Status::Found })
 }
 
 /// The place around one point.

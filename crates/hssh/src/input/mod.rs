@@ -9,10 +9,11 @@ use hssh::answer::AnswerWarning;
 use hssh::kind::FileKind;
 use hssh::pipeline::{Input, MappingOptions, SurveyedLog};
 use hssh_causal::Exploration;
-use hssh_local::{LaserLog, OccupancyGrid, SurveyError, SurveyStage, read_map_with_remarks};
+use hssh_local::{LaserLog, OccupancyGrid, Reply, SurveyError, SurveyStage, read_map_with_remarks};
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 
 use crate::failure::Failure;
+use crate::progress::{is_interrupted, keep_on_signals};
 use crate::terminal::say;
 
 pub(crate) use source::Source;
@@ -62,8 +63,9 @@ pub(crate) fn surveyed(
     source: Source,
     options: &MappingOptions,
 ) -> Result<SurveyedLog, Failure> {
+    keep_on_signals();
     let unreadable = |error| Failure::ReadLog { file: file.to_owned(), error: Box::new(error) };
-    let log = LaserLog::read(source.into_content()).map_err(unreadable)?;
+    let log = LaserLog::read_with(source.into_content(), &options.laser.mount()).map_err(unreadable)?;
     let scans = log.scans.len() as u64;
     let bar = ProgressBar::with_draw_target(Some(3 * scans), ProgressDrawTarget::stderr_with_hz(10));
     if let Ok(style) = ProgressStyle::with_template("{spinner} {msg} {bar:30} {percent}%  {elapsed}") {
@@ -78,6 +80,7 @@ pub(crate) fn surveyed(
         };
         bar.set_message(message);
         bar.set_position(before + done as u64);
+        if is_interrupted() { Reply::Stop } else { Reply::GoOn }
     });
     bar.finish_and_clear();
     let surveyed = surveyed.map_err(|error| failed(file, error))?;

@@ -4,7 +4,8 @@ use std::io::Read;
 
 use hssh_causal::{Exploration, ParseError};
 use hssh_local::{
-    LaserLog, LogError, LogWarning, PerceptionModel, Survey, SurveyError, SurveyStage, SurveyWarning, survey,
+    LaserLog, LogError, LogWarning, PerceptionModel, Reply, Survey, SurveyError, SurveyStage, SurveyWarning,
+    survey,
 };
 
 use super::error::PipelineError;
@@ -54,7 +55,8 @@ impl Input {
         options: &MappingOptions,
     ) -> Result<Self, PipelineError> {
         options.check()?;
-        let surveyed = SurveyedLog::new(LaserLog::read(log)?, options, |_, _| {})?;
+        let surveyed =
+            SurveyedLog::new(LaserLog::read_with(log, &options.laser.mount())?, options, |_, _| {})?;
         Ok(Input::surveyed(name, surveyed)?)
     }
 
@@ -96,16 +98,19 @@ impl Input {
 }
 
 impl SurveyedLog {
-    /// Finds the places along a log; `progress` is told how many scans each stage has done.
+    /// Finds the places along a log; `progress` is told how many scans each stage has done, and may stop it: the log is then
+    /// cut off behind the scans that were matched.
     ///
     /// # Errors
     /// If the options describe no local map, there is no place, or a way cannot be measured.
-    pub fn new(
+    pub fn new<R: Into<Reply>>(
         log: LaserLog,
         options: &MappingOptions,
-        progress: impl FnMut(SurveyStage, usize),
+        progress: impl FnMut(SurveyStage, usize) -> R,
     ) -> Result<Self, SurveyError> {
         let survey = survey(&log, &options.places.along_logs(), progress)?;
+        let scans = survey.track.scans.len();
+        let log = if scans < log.scans.len() { log.beginning(scans) } else { log };
         Ok(SurveyedLog { log, survey })
     }
 
@@ -128,6 +133,10 @@ impl SurveyedLog {
     pub fn partial(&self) -> Option<String> {
         let (all, lost) = (self.scans(), self.unusable().count() as u64);
         let broken = self.log.warnings.iter().find(|warning| matches!(warning, LogWarning::BreaksOff { .. }));
+        let stopped = |warning: &&SurveyWarning| matches!(warning, SurveyWarning::Interrupted { .. });
+        if let Some(stopped) = self.survey.warnings.iter().find(stopped) {
+            return Some(stopped.to_string());
+        }
         if 10 * lost >= all {
             return Some(format!("{lost} of {all} scans of the log could not be used"));
         }
@@ -171,6 +180,8 @@ impl SurveyedLog {
                 LogWarning::OddBeams { line, .. } => (WarningKind::BeamsWithoutRange, Some(*line)),
                 LogWarning::Jump { line, .. } => (WarningKind::OdometryJump, Some(*line)),
                 LogWarning::RangeLimit { .. } => (WarningKind::RangeLimit, None),
+                LogWarning::LimitDoubted { .. } => (WarningKind::RangeLimit, None),
+                LogWarning::View { .. } => (WarningKind::LaserView, None),
                 LogWarning::LaserPose { .. } => (WarningKind::LaserPose, None),
             };
             match line {
@@ -186,6 +197,7 @@ impl SurveyedLog {
                 SurveyWarning::Unconfirmed { scan, .. } => (WarningKind::UnconfirmedReturn, scan),
                 SurveyWarning::Lost { first, .. } => (WarningKind::Lost, first),
                 SurveyWarning::NoOdometry => (WarningKind::NoOdometry, 1),
+                SurveyWarning::Interrupted { scans } => (WarningKind::SurveyInterrupted, scans),
             };
             let spot = Spot::Scan(self.scan_number(scan - 1));
             AnswerWarning::record(&mut warnings, kind, spot, || warning.to_string());

@@ -4,6 +4,7 @@ mod assemble;
 mod engine;
 mod error;
 mod input;
+mod laser;
 mod options;
 mod places;
 mod reading;
@@ -11,6 +12,7 @@ mod reading;
 pub use engine::Monitor;
 pub use error::{PipelineError, SearchFailure};
 pub use input::{Input, SurveyedLog};
+pub use laser::LaserChoice;
 pub use options::{
     GenusOrder, MappingOptions, MetricalScore, OptionsError, PosteriorChoice, PriorKind, SearchChoice,
     SearchLimits, SearchMethod,

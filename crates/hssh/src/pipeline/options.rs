@@ -7,6 +7,7 @@ use ron::extensions::Extensions;
 use serde::{Deserialize, Serialize};
 
 use super::error::PipelineError;
+use super::laser::LaserChoice;
 use super::places::PlaceChoice;
 use super::reading::ReadingChoice;
 
@@ -26,6 +27,8 @@ use super::reading::ReadingChoice;
 #[derive(Clone, Copy, PartialEq, Debug, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct MappingOptions {
+    /// How a log's laser looks and sits.
+    pub laser: LaserChoice,
     /// What counts as a place, along logs.
     pub places: PlaceChoice,
     /// How the tree of hypotheses is searched.
@@ -45,6 +48,7 @@ pub struct MappingOptions {
 impl Default for MappingOptions {
     fn default() -> Self {
         MappingOptions {
+            laser: LaserChoice::default(),
             places: PlaceChoice::default(),
             search: SearchChoice::default(),
             axioms: Axioms::default(),
@@ -226,6 +230,8 @@ enum MayBe {
     Zero,
     /// Anything above zero.
     Positive,
+    /// From one degree to a full turn.
+    View,
 }
 
 impl MappingOptions {
@@ -246,12 +252,15 @@ impl MappingOptions {
     /// # Errors
     /// With the first such number, or if it is the axioms.
     pub fn check(&self) -> Result<(), PipelineError> {
-        let MappingOptions { axioms, places, posterior, limits, .. } = self;
+        let MappingOptions { axioms, laser, places, posterior, limits, .. } = self;
         axioms.check()?;
+        let (x, y, turn) = laser.pose.unwrap_or_default();
         let numbers = [
             ("places.narrowest", places.narrowest, MayBe::Zero),
             ("places.shallowest", places.shallowest, MayBe::Zero),
             ("places.clutter", places.clutter, MayBe::Zero),
+            ("laser.view", laser.view, MayBe::View),
+            ("laser.pose", Some(x.abs().max(y.abs()).max(turn.abs())), MayBe::Zero),
             ("posterior.likeness", Some(posterior.likeness), MayBe::Zero),
             ("posterior.area", posterior.area, MayBe::Positive),
             ("posterior.rest", Some(posterior.rest), MayBe::Positive),
@@ -261,6 +270,7 @@ impl MappingOptions {
             let Some(number) = number else { continue };
             let (is_right, what) = match may_be {
                 MayBe::Zero => (number >= 0.0, "finite and not negative"),
+                MayBe::View => ((1.0..=360.0).contains(&number), "an angle between 1 and 360 degrees"),
                 MayBe::Positive => (number > 0.0, "finite and positive"),
             };
             if !is_right || !number.is_finite() {

@@ -9,5 +9,6 @@ mod log;
 mod outputs;
 mod program;
 mod readings;
+mod signals;
 mod simulate;
 mod stars;

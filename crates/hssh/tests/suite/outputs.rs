@@ -121,3 +121,19 @@ fn a_file_is_replaced_behind_its_link() {
     assert!(std::fs::symlink_metadata(&link).unwrap().is_symlink());
     assert_eq!(std::fs::metadata(&real).unwrap().permissions().mode() & 0o777, 0o640);
 }
+
+/// A rank that cannot be is refused before anything is searched; one that is not there, before the answer, which is
+/// printed all the same.
+#[test]
+fn a_rank_that_is_not_there_is_refused() {
+    let (folder, file) = exploration("rank");
+    let (input, svg) = (file.to_str().unwrap(), folder.join("out.svg"));
+    let out = svg.to_str().unwrap();
+    let output = hssh(&["map", input, "--planar", "--rank", "11", "--svg", out]);
+    assert_eq!(output.status.code(), Some(2));
+    assert!(output.stdout.is_empty() && text(&output.stderr).contains("add --top 11"));
+    let output = hssh(&["map", input, "--planar", "--rank", "5000", "--all", "--svg", out]);
+    assert_eq!(output.status.code(), Some(2));
+    assert!(text(&output.stderr).contains("there is no map number 5000"));
+    assert!(text(&output.stdout).contains("rank") && !svg.exists());
+}

@@ -16,6 +16,7 @@ use crate::arguments::GraphArguments;
 use crate::failure::{Failure, Status};
 use crate::input::Source;
 use crate::output::{Written, check_outputs, print, print_json, write_file};
+use crate::progress::keep_on_signals;
 
 use optimize::{Optimum, optimize};
 use report::account;
@@ -34,6 +35,7 @@ pub(crate) fn run(options: &GraphArguments) -> Result<Status, Failure> {
     }
     let fixed = fixed(&file);
     let held = file.graph.anchor_components();
+    keep_on_signals();
     let started = Instant::now();
     let optimum = optimize(options, &file)?;
     let solving = started.elapsed().as_secs_f64();

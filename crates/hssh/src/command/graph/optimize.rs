@@ -10,6 +10,7 @@ use hssh_metrics::{
 
 use crate::arguments::{GraphArguments, KernelOption, MethodOption, StartOption};
 use crate::failure::Failure;
+use crate::progress::is_interrupted;
 
 /// Sweeps of relaxation if no other number is asked for: one costs as much as a few edges, and it takes many.
 const MAX_SWEEPS: usize = 10_000;
@@ -40,6 +41,7 @@ pub(super) fn optimize(options: &GraphArguments, file: &GraphFile) -> Result<Opt
         method: method(options.method),
         max_iterations: options.max_iterations.unwrap_or(Options::default().max_iterations),
         tolerance: options.tolerance,
+        interrupted: is_interrupted,
     };
     if options.method == MethodOption::Relaxation && (options.graduated || options.robust.is_some()) {
         let help = "relaxation weighs all edges alike: choose another --method with --robust and --graduated";
@@ -62,7 +64,8 @@ pub(super) fn optimize(options: &GraphArguments, file: &GraphFile) -> Result<Opt
         return screened(&graph, suspects(&graph, file), options.threshold, &solver);
     }
     if options.method == MethodOption::Relaxation {
-        return relaxed(&graph, options.max_iterations.unwrap_or(MAX_SWEEPS), options.tolerance);
+        let max_iterations = options.max_iterations.unwrap_or(MAX_SWEEPS);
+        return relaxed(&graph, &Options { max_iterations, ..solver });
     }
     if !file.doubtful.is_empty() {
         let doubtful: BTreeSet<_> = file.doubtful.iter().map(|&index| ends(&graph.edges()[index])).collect();
@@ -121,8 +124,8 @@ fn started(options: &GraphArguments, file: &GraphFile) -> Result<PoseGraph, Fail
     Ok(graph)
 }
 
-fn relaxed(graph: &PoseGraph, sweeps: usize, tolerance: f64) -> Result<Optimum, Failure> {
-    let relaxation = relax(graph, sweeps, tolerance)?;
+fn relaxed(graph: &PoseGraph, options: &Options) -> Result<Optimum, Failure> {
+    let relaxation = relax(graph, options)?;
     Ok(Optimum {
         weights: vec![1.0; graph.edges().len()],
         initial_chi2: graph.chi2(),
@@ -130,7 +133,7 @@ fn relaxed(graph: &PoseGraph, sweeps: usize, tolerance: f64) -> Result<Optimum, 
         robust_cost: None,
         steps: relaxation.sweeps,
         counted: "sweep",
-        ending: if relaxation.converged { CONVERGED } else { NOT_YET },
+        ending: if relaxation.converged { CONVERGED } else { unfinished() },
         finished: relaxation.converged,
         poses: relaxation.poses,
     })
@@ -160,7 +163,7 @@ fn robustly(
         robust_cost: Some(solution.cost),
         steps: solution.rounds,
         counted: "round",
-        ending: if solution.converged { CONVERGED } else { NOT_YET },
+        ending: if solution.converged { CONVERGED } else { unfinished() },
         finished: solution.converged,
         poses: solution.poses,
         weights: solution.weights,
@@ -243,13 +246,20 @@ fn refuse_floating(graph: &PoseGraph, file: &GraphFile) -> Result<(), Failure> {
 }
 
 const CONVERGED: &str = "converged";
+const INTERRUPTED: &str = "interrupted: these are the poses reached";
 const NOT_YET: &str = "not converged yet: --max-iterations allows more";
+
+/// Why what goes round by round did not come to its end.
+fn unfinished() -> &'static str {
+    if is_interrupted() { INTERRUPTED } else { NOT_YET }
+}
 
 fn ending(stop: StopReason) -> &'static str {
     match stop {
         StopReason::Converged => CONVERGED,
         StopReason::LinearizedOnce => "linearized once, as asked",
         StopReason::MaxIterations => NOT_YET,
+        StopReason::Interrupted => INTERRUPTED,
         StopReason::Stalled => {
             "stalled: no step lowers χ² although the linear model promises it; the worst edge may be contradicted by \
              half a turn"

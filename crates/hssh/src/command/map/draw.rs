@@ -44,10 +44,6 @@ pub(super) fn draw(
     }
     let is_asked = |map: &&AnsweredMap| arguments.rank.map_or(map.tied, |rank| map.rank == u64::from(rank));
     let best: Vec<&AnsweredMap> = mapped.answer.maps.iter().filter(is_asked).collect();
-    if let (Some(rank), []) = (arguments.rank, &best[..]) {
-        let found = mapped.answer.maps.len();
-        return Err(PipelineError::NoSuchRank { asked: rank as usize, found }.into());
-    }
     if let (Some(file), []) = (&arguments.trajectory, &best[..]) {
         written.note(write_trajectory(file, input, mapped, 1));
     }
@@ -128,6 +124,9 @@ fn is_yaml(file: &Path) -> bool {
 
 /// What the best maps are, in the singular.
 fn kind(answer: &Answer) -> &'static str {
+    if answer.input.explained < answer.input.considered {
+        return "partial map";
+    }
     match (answer.search.objective, answer.certificate.proved) {
         (SearchObjective::Preference, true) => "optimal map",
         (SearchObjective::Preference, false) => "best map found",

@@ -19,6 +19,13 @@ pub(crate) fn run(arguments: &MapArguments) -> Result<Status, Failure> {
         return Err(Failure::Usage(help.to_owned()));
     }
     draw::check(arguments)?;
+    if let (Some(rank), Some(listed)) = (arguments.rank, options.listed)
+        && rank as usize > listed
+    {
+        return Err(Failure::Usage(format!(
+            "--rank {rank} is not among the {listed} maps that are listed: add --top {rank}, or --all"
+        )));
+    }
     let input = read_input(&arguments.file, &options)?;
     if arguments.strict {
         refuse_partial(&arguments.file, input.as_surveyed())?;
@@ -29,6 +36,14 @@ pub(crate) fn run(arguments: &MapArguments) -> Result<Status, Failure> {
         (Some(_), None) => {}
     }
     let mapped = searched(&input, &options)?;
+    // An answer that took long is printed all the same.
+    let no_such_rank = arguments
+        .rank
+        .filter(|&rank| mapped.answer.map(rank as usize).is_none())
+        .map(|asked| Failure::NoSuchRank { asked, found: mapped.answer.maps.len() });
+    if let Some(refusal) = &no_such_rank {
+        refusal.print();
+    }
     print(&match arguments.json {
         true => mapped.answer.to_json(),
         false => {
@@ -44,6 +59,9 @@ pub(crate) fn run(arguments: &MapArguments) -> Result<Status, Failure> {
     }
     if let (Some(file), Some(exploration)) = (&arguments.corrected, mapped.corrected()) {
         written.note(write_file(file, &exploration.to_ron()));
+    }
+    if no_such_rank.is_some() {
+        return Ok(Status::Refused);
     }
     draw::draw(arguments, &input, &mapped, &mut written)?;
     written.done()?;
@@ -64,8 +82,8 @@ fn refuse_what_needs_a_log(arguments: &MapArguments) -> Result<(), Failure> {
         || arguments.trajectory.is_some()
         || arguments.likeness.is_some()
         || arguments.debug_dir.is_some();
-    if is_asked || !arguments.places.choice().is_usual() {
-        let help = "--grid, --trajectory, --likeness, --debug-dir and what counts as a place need a laser log: an exploration has no scans";
+    if is_asked || !arguments.places.choice().is_usual() || !arguments.laser.choice().is_usual() {
+        let help = "--grid, --trajectory, --likeness, --debug-dir, --fov, --laser-pose and what counts as a place need a laser log: an exploration has no scans";
         return Err(Failure::Usage(help.to_owned()));
     }
     Ok(())
