@@ -61,6 +61,22 @@ pub(super) fn linked(
     Linked { found, before, length: longest + 1 }
 }
 
+/// A match with the best of each query shortly before that tells the same, the last one first.
+pub(super) fn recent(
+    last: &Match,
+    tentative: &[Vec<Linked>],
+    travelled: impl Fn(usize) -> f64,
+    pose: impl Fn(usize) -> Pose,
+) -> Vec<Match> {
+    let before = (last.query.saturating_sub(MEMORY)..last.query).filter_map(|query| {
+        let travel = travelled(last.query) - travelled(query);
+        let same = tentative[query].iter().map(|other| other.found);
+        let same = same.filter(|other| agree(other, last, travel, &pose));
+        same.max_by(|a, b| a.score.total_cmp(&b.score))
+    });
+    std::iter::once(*last).chain(before).collect()
+}
+
 /// The matches of a chain, the last one first.
 pub(super) fn chain(last: &Linked, tentative: &[Vec<Linked>]) -> Vec<Match> {
     let before = |one: &&Linked| one.before.and_then(|(query, index)| tentative[query].get(index));

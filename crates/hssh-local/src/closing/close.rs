@@ -6,7 +6,7 @@ use hssh_metrics::{
     UncertainPose, UncertaintyError, solve, solve_robustly,
 };
 
-use super::chain::{Linked, chain, linked, told};
+use super::chain::{Linked, chain, linked, recent, told};
 use super::keyframe::{Keyframe, keyframes};
 use super::matching::{Match, find};
 use super::options::ClosingOptions;
@@ -235,7 +235,15 @@ impl<'a> Closing<'a> {
 
     /// Accepts the chains that end at a submap.
     fn accept(&mut self, query: usize) -> Result<(), ClosingError> {
-        let chains = self.tentative[query].iter().map(|last| chain(last, &self.tentative));
+        let (pose, travelled) =
+            (|submap: usize| self.pose(submap), |submap: usize| self.submaps[submap].travelled);
+        let chains = self.tentative[query].iter().map(|last| {
+            if last.found.spread <= self.options.well_known {
+                recent(&last.found, &self.tentative, travelled, pose)
+            } else {
+                chain(last, &self.tentative)
+            }
+        });
         let added: Vec<Match> = chains.filter(|chain| self.is_convincing(chain)).flatten().collect();
         let mut farthest: f64 = 0.0;
         for one in added {
