@@ -321,9 +321,9 @@ impl<A: Appraise> Engine<A> {
         self.open().map(Leaf::depth).max()
     }
 
-    /// The best one of the open hypotheses that got farthest, settled.
+    /// The best one of the open hypotheses that got farthest, settled; none if none explains a travel.
     pub(crate) fn best_of_deepest(&self, context: Context<'_>) -> Option<Leaf<A>> {
-        let deepest = self.deepest()?;
+        let deepest = self.deepest().filter(|&travels| travels > 0)?;
         let mut leaves: Vec<&Leaf<A>> = self.open().filter(|leaf| leaf.depth() == deepest).collect();
         leaves.sort_unstable_by_key(|leaf| (leaf.key, leaf.node));
         let mut cursor = Cursor::new(context.experience);

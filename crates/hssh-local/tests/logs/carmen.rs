@@ -258,7 +258,8 @@ fn a_view_that_contradicts_the_turns_is_doubted() {
         assert_eq!(view_doubted(&known), None, "{view}");
         assert!((known.scans[0].scan.bearing(0).to_degrees() + view / 2.0).abs() < 1e-9);
         let told = read(&turning(view, beams, &format!("PARAM laser_front_laser_fov {view} h 0\n"))).unwrap();
-        assert_eq!((view_doubted(&told), &told.scans), (None, &known.scans), "{view}");
+        assert_eq!(view_doubted(&told), None, "{view}");
+        assert!(told.scans.iter().zip(&known.scans).all(|(one, other)| one.scan == other.scan), "{view}");
     }
     for beams in [180, 181, 361] {
         assert_eq!(view_doubted(&read(&turning(180.0, beams, "")).unwrap()), None);

@@ -5,6 +5,8 @@ use std::process::{Command, Output, Stdio};
 use std::thread::sleep;
 use std::time::Duration;
 
+use hssh::world::{grid, snake};
+
 use super::common::{hssh, root, scratch, text};
 
 /// Runs the program, and sends it a signal once it is under way.
@@ -20,7 +22,11 @@ fn ended(signal: &str, arguments: &[&str]) -> Output {
 
 #[test]
 fn a_search_that_is_ended_shows_what_got_farthest() {
-    let search = ["map", "fixtures/experiments/streets.ron", "--search", "proof", "--max-genus", "9"];
+    let world = grid(8, 8, 8.0).unwrap();
+    let walk = world.explore(&world.route_through(&snake(8, 8)).unwrap()).unwrap();
+    let file = scratch("signals").join("snake.ron");
+    std::fs::write(&file, walk.to_ron()).unwrap();
+    let search = ["map", file.to_str().unwrap(), "--planar", "--search", "proof"];
     for signal in ["-TERM", "-HUP", "-INT"] {
         let output = ended(signal, &search);
         let said = text(&output.stdout);
