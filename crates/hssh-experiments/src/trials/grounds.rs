@@ -18,8 +18,11 @@ pub(super) struct Ground {
     pub(super) dropouts: f64,
 }
 
+/// How a ground is made.
+type Plan = fn(&mut ChaCha8Rng) -> Ground;
+
 /// The kinds of grounds, and how one is made.
-pub(super) const KINDS: [(&str, fn(&mut ChaCha8Rng) -> Ground); 6] = [
+pub(super) const KINDS: [(&str, Plan); 6] = [
     ("twins", twins),
     ("twins, back", twins_and_back),
     ("ring", ring),

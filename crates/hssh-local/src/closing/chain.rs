@@ -50,9 +50,10 @@ pub(super) fn linked(
 ) -> Linked {
     let mut before: Option<(usize, usize)> = None;
     let mut longest = 0;
-    for query in found.query.saturating_sub(MEMORY)..found.query {
+    let first = found.query.saturating_sub(MEMORY);
+    for (query, matches) in (first..).zip(&tentative[first..found.query]) {
         let travel = travelled(found.query) - travelled(query);
-        for (index, other) in tentative[query].iter().enumerate() {
+        for (index, other) in matches.iter().enumerate() {
             if other.length > longest && agree(&other.found, &found, travel, &pose) {
                 (before, longest) = (Some((query, index)), other.length);
             }
