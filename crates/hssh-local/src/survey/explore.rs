@@ -1,7 +1,8 @@
 //! A survey as an exploration: named stars with bearings, travels with odometry.
 
-use hssh_causal::{Exploration, NamedStar, Odometry, StarType, Travel};
+use hssh_causal::{Exploration, NamedStar, Odometry, StarType, Travel, check_bearings};
 use hssh_metrics::UncertainPose;
+use hssh_topology::Star;
 
 use super::error::SurveyError;
 use super::visit::{Survey, Visit};
@@ -44,12 +45,25 @@ fn leg(index: usize, pair: &[Visit], motion: &UncertainPose) -> Option<Travel> {
 
 /// A star under the name of its shape and the number of its visit.
 fn named(index: usize, local: &LocalStar) -> NamedStar {
-    let bearings = local.bearings.iter().map(|bearing| Some(rounded(bearing.to_degrees(), 1e2).to_radians()));
     NamedStar {
         name: format!("{} at visit {}", shape(local), index + 1),
         star: local.star.clone(),
-        bearings: bearings.collect(),
+        bearings: told_apart(&local.star, local.bearings.iter().copied()),
     }
+}
+
+/// Bearings in hundredths of a degree, without those that do not tell an end from its neighbors: two ways of a hall may lead
+/// the same way at first.
+fn told_apart(star: &Star, bearings: impl Iterator<Item = f64>) -> Vec<Option<f64>> {
+    let rounded = |bearing: f64| Some(rounded(bearing.to_degrees(), 1e2).to_radians());
+    let mut told: Vec<Option<f64>> = bearings.map(rounded).collect();
+    while let Err(problem) = check_bearings(star, &told) {
+        match star.find(problem.olp()).filter(|olp| told[olp.index()].is_some()) {
+            Some(olp) => told[olp.index()] = None,
+            None => return vec![None; told.len()],
+        }
+    }
+    told
 }
 
 /// What people call a crossing of that shape.
@@ -69,4 +83,21 @@ fn shape(local: &LocalStar) -> String {
 
 fn rounded(value: f64, digits: f64) -> f64 {
     (value * digits).round() / digits
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_does_not_tell_ends_apart_is_no_bearing() {
+        let star: Star = "0+ 1+ 0- 1-".parse().unwrap();
+        let degrees = |numbers: [f64; 4]| {
+            let told = told_apart(&star, numbers.into_iter().map(f64::to_radians));
+            told.into_iter().map(|bearing| bearing.map(|b| b.to_degrees().round())).collect::<Vec<_>>()
+        };
+        assert_eq!(degrees([90.0, 0.0, -90.0, 180.0]), [Some(90.0), Some(0.0), Some(-90.0), Some(180.0)]);
+        assert_eq!(degrees([90.0, 90.0, -90.0, 180.0]), [Some(90.0), None, Some(-90.0), Some(180.0)]);
+        assert_eq!(degrees([90.0, 120.0, -90.0, f64::NAN]).iter().flatten().count(), 2);
+    }
 }
