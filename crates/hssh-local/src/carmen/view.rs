@@ -41,7 +41,7 @@ impl RawLog {
         };
         let pairs = self.scans.iter().enumerate().filter_map(|(index, one)| {
             let others = self.scans[index + 1..].iter().take(WITHIN);
-            others.filter_map(|other| Some((one, other, turn(one, other)?))).last()
+            others.filter_map(|other| Some((one, other, turn(one, other)?))).next_back()
         });
         let pairs: Vec<_> = pairs.collect();
         let chosen = pairs.iter().step_by(pairs.len().div_ceil(MOST_PAIRS).max(1));

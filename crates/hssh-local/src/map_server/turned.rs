@@ -90,7 +90,7 @@ mod tests {
         let lattice = Lattice::new(40, 41, 0.1, [-1.0, 3.0]).unwrap();
         let wall = |cell: Cell| if cell.row == 20 { Occupancy::Occupied } else { Occupancy::Free };
         let image = OccupancyGrid::new(lattice, lattice.cells().map(wall).collect()).unwrap();
-        for yaw in [0.1, 0.5, 0.7853, 2.0, -1.2, 3.0] {
+        for yaw in [0.1, 0.5, 0.8, 2.0, -1.2, 3.0] {
             let grid = turned(&image, yaw).unwrap();
             let frame = *grid.lattice();
             let side = |cell: Cell| {
