@@ -7,10 +7,10 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use hssh::answer::{
-    Answer, AnswerError, AnswerWarning, AnsweredEvidence, AnsweredMap, AnsweredVisit, Assumption, CostItem,
-    CostSheet, EndReference, EndState, Explanation, Finding, FoundCounts, InputKind, MapDifference,
-    PartingVisit, PlacedPose, SearchObjective, SearchOrder, Spot, StopReason, TestTravels, Verdict,
-    VerdictKind, VisitRecord, WarningKind, Worth,
+    Answer, AnswerError, AnswerWarning, AnsweredEvidence, AnsweredMap, AnsweredVisit, Assumption,
+    CorrectionKind, CostItem, CostSheet, EndReference, EndState, Explanation, Finding, FoundCounts,
+    InputKind, MapDifference, PartingVisit, PlacedPose, ReadingAccount, ReadingCorrection, SearchObjective,
+    SearchOrder, Spot, StopReason, TestTravels, Verdict, VerdictKind, VisitRecord, WarningKind, Worth,
 };
 use hssh::causal::Exploration;
 use hssh::pipeline::{Input, Mapped, MappingOptions, Monitor, SearchMethod, map};
@@ -73,6 +73,21 @@ fn full() -> Answer {
         times: Some([1.5, 2.5]),
         ..answer.visits[0].clone()
     };
+    answer.readings = Some(ReadingAccount {
+        nats: 9.5,
+        nats_of_errors: 3.0,
+        at_most: 0.9,
+        proved: false,
+        found: 1,
+        corrections: vec![ReadingCorrection {
+            kind: CorrectionKind::Missed,
+            visit: 1,
+            place: Some(0),
+            ends: vec!["0+".to_owned()],
+            sentence: "visit 2 missed 1 gateway".to_owned(),
+        }],
+        visits: vec![Some(0), None],
+    });
     let spots = vec![Spot::Line(1), Spot::Scan(2), Spot::Visit(3), Spot::Map(4)];
     let (kind, sentence) = (WarningKind::NoPoses, "somewhere".to_owned());
     answer.warnings.push(AnswerWarning { kind, count: 4, sentence, spots });
