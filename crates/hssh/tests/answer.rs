@@ -86,7 +86,7 @@ fn full() -> Answer {
             ends: vec!["0+".to_owned()],
             sentence: "visit 2 missed 1 gateway".to_owned(),
         }],
-        visits: vec![Some(0), None],
+        visits: vec![[0, 0]],
     });
     let spots = vec![Spot::Line(1), Spot::Scan(2), Spot::Visit(3), Spot::Map(4)];
     let (kind, sentence) = (WarningKind::NoPoses, "somewhere".to_owned());

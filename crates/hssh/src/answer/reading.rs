@@ -18,8 +18,9 @@ pub struct ReadingAccount {
     pub found: u64,
     /// What is taken for misread, in the order of the visits.
     pub corrections: Vec<ReadingCorrection>,
-    /// By visit of the exploration as told, the start first: the visit of the maps; null if it is taken for none.
-    pub visits: Vec<Option<u64>>,
+    /// Visits of the exploration as told that are visits of the maps: ⟨as told, of the maps⟩, the start being 0. The others are taken for none, or
+    /// for nothing but a turn on the way.
+    pub visits: Vec<[u64; 2]>,
 }
 
 /// One thing that is taken for misread.

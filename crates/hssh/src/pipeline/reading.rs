@@ -67,10 +67,8 @@ pub(super) fn read(
     let number =
         |place: PlaceId| numbers.iter().position(|&other| other == place).map(|number| number as u32);
     let corrections = best.corrections(exploration);
-    let visit = |visit: usize| {
-        let position = corrected.told.iter().position(|&told| told == Some(visit));
-        position.map(|position| position as u64)
-    };
+    let visits = corrected.told.iter().enumerate();
+    let visits = visits.filter_map(|(visit, told)| Some([(*told)? as u64, visit as u64])).collect();
     let account = ReadingAccount {
         nats: best.cost.total(),
         nats_of_errors: best.cost.perception,
@@ -78,7 +76,7 @@ pub(super) fn read(
         proved: answer.proof.proved,
         found: answer.maps.len() as u64,
         corrections: corrections.iter().map(|correction| told(correction, best, number)).collect(),
-        visits: (0..=exploration.travels().len()).map(visit).collect(),
+        visits,
     };
     Ok(Read { exploration: corrected.exploration, account })
 }
