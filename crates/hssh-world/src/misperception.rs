@@ -47,6 +47,24 @@ pub struct Misperceived {
     pub errors: [usize; 5],
 }
 
+impl Misperceived {
+    /// Whether places are those of the world: two visits are to one place exactly if they were, and a report of no place is taken for none, or for a
+    /// place where the robot was on no other visit.
+    #[must_use]
+    pub fn is_told_apart_by<T: Copy + PartialEq>(&self, places: &[Option<T>]) -> bool {
+        let visits: Vec<_> = places.iter().zip(&self.visits).collect();
+        let is_same = |place: &Option<T>, other: &Option<T>| place.is_some() && place == other;
+        places.len() == self.visits.len()
+            && visits.iter().all(|(place, truth)| truth.is_none() || place.is_some())
+            && visits.iter().enumerate().all(|(later, (place, truth))| {
+                let earlier = &visits[..later];
+                earlier.iter().all(|(other, other_truth)| {
+                    is_same(place, other) == (truth.is_some() && truth == other_truth)
+                })
+            })
+    }
+}
+
 /// A visit that is reported.
 struct Report {
     place: Option<PlaceId>,

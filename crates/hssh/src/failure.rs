@@ -117,6 +117,10 @@ fn help(error: &PipelineError) -> &'static str {
         PipelineError::Search(SearchFailure::Mapper(_)) => {
             "\nhelp: --search breadth-first goes by topology alone"
         }
+        PipelineError::NoAccount { stop } if stop.is_complete() => {
+            "\nhelp: a higher limit in the options' readings.model allows more errors in one travel"
+        }
+        PipelineError::NoAccount { .. } => "\nhelp: give the search more time, memory or hypotheses",
         PipelineError::ClosedOfAll => "\nhelp: --closed goes with --search posterior, best-first and proof",
         PipelineError::GenusOfPosterior => "\nhelp: --planar and --max-genus bound it in every search",
         _ => "",

@@ -56,7 +56,7 @@ impl Ground {
         let read = reader.read(exploration)?;
         let exact = reader.exact().read(exploration)?;
         let right =
-            |answer: &ReadAnswer| answer.maps.first().is_some_and(|map| is_right(&map.visits(), &told));
+            |answer: &ReadAnswer| answer.maps.first().is_some_and(|map| told.is_told_apart_by(&map.visits()));
         Ok(Outcome {
             errors: told.errors.iter().sum(),
             right: right(&read),
@@ -68,18 +68,4 @@ impl Ground {
             exact_found_after: exact.found_after,
         })
     }
-}
-
-/// Whether visits are at one place exactly where they were, and what is no place is not taken for one where the robot was on another visit.
-fn is_right<T: Copy + PartialEq>(visits: &[Option<T>], told: &Misperceived) -> bool {
-    let pairs = visits.iter().zip(&told.visits);
-    visits.len() == told.visits.len()
-        && pairs.clone().all(|(place, truth)| truth.is_none() || place.is_some())
-        && pairs.clone().enumerate().all(|(later, (place, truth))| {
-            let same = |(other, other_truth): (&Option<T>, &Option<_>)| {
-                let is_same = place.is_some() && place == other;
-                is_same == (truth.is_some() && truth == other_truth)
-            };
-            visits[..later].iter().zip(&told.visits).all(same)
-        })
 }

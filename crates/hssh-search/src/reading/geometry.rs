@@ -20,11 +20,6 @@ const OUT_OF_THE_QUESTION: f64 = 50.0;
 /// A way that nobody measured and that costs more than that for how it leads is none.
 const UNLIKELY_WAY: f64 = 8.0;
 
-/// Infinitely much for a way that is none.
-fn unlikely(price: f64) -> f64 {
-    if price > UNLIKELY_WAY { f64::INFINITY } else { price }
-}
-
 /// One travel of a state that is about to be explained, as it was measured.
 pub(crate) struct Geometry<'a> {
     pub(crate) state: &'a State,
@@ -40,8 +35,8 @@ pub(crate) struct Geometry<'a> {
     marginals: OnceCell<Option<Marginals>>,
     /// By pose and turn.
     strains: RefCell<BTreeMap<(PoseId, u64), Strain>>,
-    /// By pose: what a visit there costs at least.
-    at_least: RefCell<BTreeMap<PoseId, f64>>,
+    /// By pose: how much χ²/2 rises if the robot is there.
+    bends: RefCell<BTreeMap<PoseId, f64>>,
 }
 
 /// What a travel was, and what surrounds it.
@@ -70,7 +65,7 @@ impl<'a> Geometry<'a> {
             bearing_deviation,
             marginals: OnceCell::new(),
             strains: RefCell::default(),
-            at_least: RefCell::default(),
+            bends: RefCell::default(),
         })
     }
 
@@ -202,8 +197,8 @@ impl<'a> Geometry<'a> {
     }
 
     /// How much χ²/2 rises if the robot is at that place, whatever its frame is turned by: the linear estimate.
-    fn least_bend(&self, pose: PoseId) -> f64 {
-        if let Some(&least) = self.at_least.borrow().get(&pose) {
+    fn bend_at(&self, pose: PoseId) -> f64 {
+        if let Some(&least) = self.bends.borrow().get(&pose) {
             return least;
         }
         let placed = self.state.placed(&self.measured, pose, 0.0);
@@ -214,33 +209,25 @@ impl<'a> Geometry<'a> {
             Some(0.5 * Strain::of(&turned, self.marginals()?).ok()?.chi2)
         });
         let least = least.unwrap_or(0.0);
-        self.at_least.borrow_mut().insert(pose, least);
+        self.bends.borrow_mut().insert(pose, least);
         least
     }
 }
 
 impl Whereabouts for Geometry<'_> {
-    fn at(&self, place: PlaceId) -> f64 {
-        let bend = self.state.pose_of(place).map_or(0.0, |pose| self.least_bend(pose));
-        if bend > OUT_OF_THE_QUESTION { f64::INFINITY } else { bend }
+    fn can_be_at(&self, place: PlaceId) -> bool {
+        self.state.pose_of(place).is_none_or(|pose| self.bend_at(pose) <= OUT_OF_THE_QUESTION)
     }
 
-    fn at_new_place(&self) -> f64 {
-        0.0
-    }
-
-    fn at_new_place_between(&self, [from, to]: [ChartEnd; 2]) -> f64 {
+    fn can_be_between(&self, ends: [ChartEnd; 2]) -> bool {
         let chart = &self.state.account.chart;
-        let known = |end: ChartEnd| end != self.exit && end.index() < chart.end_count();
-        let ways = [from, to].into_iter().filter(|&end| known(end)).map(|end| self.towards_arrival(end));
-        unlikely(ways.sum())
+        // By the end that it left by, it came as measured.
+        let is_known = |end: &ChartEnd| *end != self.exit && end.index() < chart.end_count();
+        let ways = ends.into_iter().filter(is_known).map(|end| self.towards_arrival(end));
+        ways.sum::<f64>() <= UNLIKELY_WAY
     }
 
-    fn along(&self, from: ChartEnd, to: ChartEnd) -> f64 {
-        unlikely(self.price_between(from, to))
-    }
-
-    fn underway(&self) -> f64 {
-        0.0
+    fn can_have_gone(&self, from: ChartEnd, to: ChartEnd) -> bool {
+        self.price_between(from, to) <= UNLIKELY_WAY
     }
 }

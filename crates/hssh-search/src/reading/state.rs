@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use hssh_causal::Odometry;
 use hssh_metrics::{Pose, PoseGraph, PoseId, UncertainPose, UncertaintyError};
-use hssh_topology::{Account, ChartEnd, Observation, Olp, PlaceId, Reading, Sight, StarId, Way};
+use hssh_topology::{Account, ChartEnd, Observation, PlaceId, Reading, Sight, StarId, Way};
 
 use crate::experience::Experience;
 use crate::frames::{bearings, circular_mean};
@@ -52,7 +52,6 @@ struct Leg {
 #[derive(Debug)]
 pub(crate) struct Trace {
     before: Option<Arc<Trace>>,
-    /// The account that the travel leads to.
     pub(crate) step: Passage,
 }
 
@@ -222,6 +221,7 @@ impl State {
         passages
     }
 
+    /// About what it takes.
     pub(crate) fn bytes(&self) -> u64 {
         let chart = self.account.chart.end_count() * 64 + self.places.len() * 80;
         let own =
@@ -245,17 +245,14 @@ fn turned(turn: f64) -> Pose {
 fn compose(travels: &[MeasuredTravel]) -> Result<MeasuredTravel, UncertaintyError> {
     let uncertain =
         |travel: &MeasuredTravel| UncertainPose { mean: travel.pose, covariance: travel.covariance };
-    let mut all = travels[0];
-    for travel in &travels[1..] {
-        let UncertainPose { mean, covariance } = uncertain(&all).compose(&uncertain(travel))?;
-        all = MeasuredTravel { pose: mean, covariance };
-    }
-    Ok(all)
+    let chain: Vec<UncertainPose> = travels.iter().map(uncertain).collect();
+    let UncertainPose { mean, covariance } = UncertainPose::compound(&chain)?.expect("a leg has travels");
+    Ok(MeasuredTravel { pose: mean, covariance })
 }
 
-/// The end that the robot came in by.
-pub(crate) fn sight<'a>(experience: &'a Experience, travel: usize) -> (Observation, Sight<'a>) {
+/// A travel, and what was seen where it led.
+pub(crate) fn sight(experience: &Experience, travel: usize) -> (Observation, Sight<'_>) {
     let observation = experience.observations[travel];
-    let entry: Olp = observation.entry;
-    (observation, Sight { star: experience.catalog.star(observation.star), entry })
+    let star = experience.catalog.star(observation.star);
+    (observation, Sight { star, entry: observation.entry })
 }

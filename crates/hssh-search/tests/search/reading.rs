@@ -27,17 +27,6 @@ fn partition<T: Copy + Ord>(visits: impl IntoIterator<Item = Option<T>>) -> Vec<
     visits.into_iter().map(visit).collect()
 }
 
-/// Whether visits are at one place exactly where they were. A visit to no place may count as one to a place where nobody else was.
-fn is_true(map: &ReadMap, told: &Misperceived) -> bool {
-    let visits: Vec<_> = map.visits().into_iter().zip(&told.visits).collect();
-    visits.iter().all(|(place, truth)| truth.is_none() || place.is_some())
-        && visits.iter().enumerate().all(|(later, (place, truth))| {
-            visits[..later].iter().all(|(other, other_truth)| {
-                (place.is_some() && place == other) == (truth.is_some() && truth == other_truth)
-            })
-        })
-}
-
 #[test]
 fn without_errors_accounts_are_maps() {
     for seed in 0..12 {
@@ -75,13 +64,13 @@ fn the_true_map_is_found_in_spite_of_errors() {
         let answer = reader.read(&told.exploration).unwrap();
         let best = &answer.maps[0];
         all += 1;
-        found += usize::from(is_true(best, &told));
+        found += usize::from(told.is_told_apart_by(&best.visits()));
         exactly += usize::from(best.is_exact());
 
         // What it takes for misread is what was misread, or as much.
         let corrections = best.corrections(&told.exploration);
         assert_eq!(corrections.is_empty(), best.is_exact());
-        // As it must have been, it is a map without readings: the same one.
+        // As it must have been, it has a map without readings.
         let corrected = best.corrected(&told.exploration).unwrap();
         assert_eq!(corrected.places.len(), corrected.exploration.travels().len() + 1);
         let builder = Mapper::builder().axioms(planar()).order(Order::Cyclic);

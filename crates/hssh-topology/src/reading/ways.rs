@@ -7,19 +7,14 @@ use super::model::{ReadingModel, nats};
 use super::way::{Arrival, Hop, Way};
 use crate::ids::{Olp, PlaceId};
 
-/// What else is known of where the robot can be: what it costs at least, on top of the prices of perception, so that no way is
-/// spelled out that is out of the question: what costs infinitely much. Nats.
+/// What else is known of where the robot can be, so that no way is spelled out that is out of the question.
 pub trait Whereabouts {
-    /// The robot is at a place of the chart.
-    fn at(&self, place: PlaceId) -> f64;
-    /// It is at a place that is not known.
-    fn at_new_place(&self) -> f64;
-    /// That is on the way between two ends that are linked.
-    fn at_new_place_between(&self, ends: [ChartEnd; 2]) -> f64;
-    /// It went from one end to another that it was not known to be linked to.
-    fn along(&self, from: ChartEnd, to: ChartEnd) -> f64;
-    /// It is underway.
-    fn underway(&self) -> f64;
+    /// Whether it can be at a place of the chart.
+    fn can_be_at(&self, place: PlaceId) -> bool;
+    /// Whether it can be at a place that is not known, on the way between two ends that are linked.
+    fn can_be_between(&self, ends: [ChartEnd; 2]) -> bool;
+    /// Whether it can have gone from one end to another that it was not known to be linked to.
+    fn can_have_gone(&self, from: ChartEnd, to: ChartEnd) -> bool;
 }
 
 /// Nothing is known of where the robot can be.
@@ -27,24 +22,16 @@ pub trait Whereabouts {
 pub struct Anywhere;
 
 impl Whereabouts for Anywhere {
-    fn at(&self, _: PlaceId) -> f64 {
-        0.0
+    fn can_be_at(&self, _: PlaceId) -> bool {
+        true
     }
 
-    fn at_new_place(&self) -> f64 {
-        0.0
+    fn can_be_between(&self, _: [ChartEnd; 2]) -> bool {
+        true
     }
 
-    fn at_new_place_between(&self, _: [ChartEnd; 2]) -> f64 {
-        0.0
-    }
-
-    fn along(&self, _: ChartEnd, _: ChartEnd) -> f64 {
-        0.0
-    }
-
-    fn underway(&self) -> f64 {
-        0.0
+    fn can_have_gone(&self, _: ChartEnd, _: ChartEnd) -> bool {
+        true
     }
 }
 
@@ -70,7 +57,7 @@ impl Account {
                 listing.depart(&chart, exit, price);
                 listing.turned_back(&chart, exit, price + nats(model.turned_back));
                 let price = price + nats(model.false_visit);
-                listing.offer(price, whereabouts.underway(), Arrival::False);
+                listing.offer(price, Arrival::False);
             }
         }
         listing.ways
@@ -89,8 +76,8 @@ struct Listing<'a> {
 
 impl Listing<'_> {
     /// Lists a way, unless it costs too much.
-    fn offer(&mut self, price: f64, at_least: f64, arrival: Arrival) {
-        if price <= self.model.limit && at_least < f64::INFINITY {
+    fn offer(&mut self, price: f64, arrival: Arrival) {
+        if price <= self.model.limit {
             self.ways.push(Way { hops: self.hops.clone(), arrival, price });
         }
     }
@@ -105,7 +92,7 @@ impl Listing<'_> {
         arrival: impl Fn(Reading) -> Arrival,
     ) {
         let most = self.model.limit - price;
-        if most < 0.0 || self.whereabouts.at(place) == f64::INFINITY {
+        if most < 0.0 || !self.whereabouts.can_be_at(place) {
             return;
         }
         let (hops, ways) = (&self.hops, &mut self.ways);
@@ -133,10 +120,9 @@ impl Listing<'_> {
         let place = chart.end(reached).place;
         let passed = chart.end(exit).passed;
         self.offer_readings(chart, place, Some(reached), price, Arrival::Predicted);
-        if self.hops.is_empty() {
-            let at_least = self.whereabouts.at_new_place_between([exit, reached]);
+        if self.hops.is_empty() && self.whereabouts.can_be_between([exit, reached]) {
             for ahead in self.other_gateways(&[self.sight.entry]) {
-                self.offer(price + self.model.price_of_passes(passed), at_least, Arrival::Inserted { ahead });
+                self.offer(price + self.model.price_of_passes(passed), Arrival::Inserted { ahead });
             }
         }
         if self.hops.len() < self.model.most_passed as usize {
@@ -149,7 +135,7 @@ impl Listing<'_> {
     }
 
     fn depart_by_pending(&mut self, chart: &Chart, exit: ChartEnd, price: f64) {
-        self.offer(price, self.whereabouts.at_new_place(), Arrival::NewPlace);
+        self.offer(price, Arrival::NewPlace);
         for end in chart.pending_ends().filter(|&end| end != exit) {
             let place = chart.end(end).place;
             self.offer_readings(chart, place, Some(end), price, |reading| Arrival::Closure(end, reading));
@@ -161,14 +147,13 @@ impl Listing<'_> {
             self.offer_readings(chart, place, None, price, Arrival::NewEnd);
         }
         for &[from, to] in chart.links() {
-            let at_least = self.whereabouts.at_new_place_between([from, to]);
             let price = price + self.model.price_of_passes(chart.end(from).passed);
-            if price > self.model.limit || at_least == f64::INFINITY {
+            if price > self.model.limit || !self.whereabouts.can_be_between([from, to]) {
                 continue;
             }
             for back in self.other_gateways(&[self.sight.entry]) {
                 for ahead in self.other_gateways(&[self.sight.entry, back]) {
-                    self.offer(price, at_least, Arrival::Crossing { on: from, back, ahead });
+                    self.offer(price, Arrival::Crossing { on: from, back, ahead });
                 }
             }
         }
@@ -189,10 +174,10 @@ impl Listing<'_> {
             + (others as f64).ln().max(0.0)
             + chart.end(enter).sightings.price_of_travel(self.model);
         let is_linked = chart.end(exit).link.is_some();
-        if price > self.model.limit || (!is_linked && self.whereabouts.along(exit, enter) == f64::INFINITY) {
+        if price > self.model.limit || (!is_linked && !self.whereabouts.can_have_gone(exit, enter)) {
             return;
         }
-        // One of its ends may be the one that the robot left by.
+        // The end that the robot left by is linked by then.
         for leave in chart.open_ends_of(place).filter(|&end| end != enter) {
             if !is_linked && leave == exit {
                 continue;

@@ -17,20 +17,21 @@ pub(crate) fn run(arguments: &ExplainArguments) -> Result<Status, Failure> {
         return Err(Failure::Usage(help.to_owned()));
     }
     let input = read_input(&arguments.file, &options)?;
-    let answer = searched(&input, &options)?.answer;
+    let mapped = searched(&input, &options)?;
+    let answer = &mapped.answer;
     if answer.maps.is_empty() {
         print(&if arguments.json { answer.to_json() } else { answer.verdict.sentence.clone() + "\n" })?;
-        return Ok(Status::of(&answer));
+        return Ok(Status::of(answer));
     }
     let rank = arguments.rank as usize;
     if answer.map(rank).is_none() {
         return Err(Failure::NoSuchRank { asked: arguments.rank, found: answer.maps.len() });
     }
-    let explanation = Explanation::new(&answer, rank, input.as_exploration(), &options.axioms)?;
+    let explanation = Explanation::new(answer, rank, mapped.exploration(&input), &options.axioms)?;
     if arguments.json {
         print_json(&explanation)?;
     } else {
         print(&explanation.to_string())?;
     }
-    Ok(Status::of(&answer))
+    Ok(Status::of(answer))
 }

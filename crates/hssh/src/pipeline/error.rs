@@ -5,8 +5,9 @@ use hssh_local::{LatticeError, LogError, SurveyError};
 use hssh_metrics::PriorError;
 use hssh_search::{MapperError, PlacementError, ThreadsError};
 use hssh_topology::AxiomsError;
+use hssh_topology::ReadingModelError;
 
-use crate::answer::DisagreementError;
+use crate::answer::{DisagreementError, StopReason};
 
 /// Why there is no answer.
 #[derive(Debug, thiserror::Error)]
@@ -43,13 +44,14 @@ pub enum PipelineError {
     #[error(transparent)]
     Search(#[from] SearchFailure),
     /// No account of an exploration with errors.
-    #[error(
-        "no account of the exploration was found, errors of perception included: {stop}; a higher readings.model.limit allows more errors in one travel"
-    )]
+    #[error("no account of the exploration was found, errors of perception included: {stop}")]
     NoAccount {
         /// Why the search stopped.
-        stop: String,
+        stop: StopReason,
     },
+    /// The model of perception.
+    #[error("the option readings.model: {0}")]
+    Readings(#[from] ReadingModelError),
     /// Errors of perception are reckoned with where travels are measured.
     #[error(
         "errors of perception can be told from other places only if every travel is measured: some travel of the exploration has no odometry"

@@ -252,8 +252,13 @@ impl Mapped {
     #[must_use]
     pub fn certificate(&self, input: &Input) -> Option<String> {
         let travels = self.answer.input.explained as usize;
-        let exploration = self.corrected.as_ref().unwrap_or(&input.exploration);
-        self.searched.certificate_text(&exploration.prefix(travels))
+        self.searched.certificate_text(&self.exploration(input).prefix(travels))
+    }
+
+    /// What the maps are of: the input's exploration, or that as it must have been.
+    #[must_use]
+    pub fn exploration<'a>(&'a self, input: &'a Input) -> &'a Exploration {
+        self.corrected.as_ref().unwrap_or(&input.exploration)
     }
 
     /// The exploration as it must have been, if errors of perception were reckoned with: what the maps are of.

@@ -254,6 +254,7 @@ impl MappingOptions {
     pub fn check(&self) -> Result<(), PipelineError> {
         let MappingOptions { axioms, laser, places, posterior, limits, .. } = self;
         axioms.check()?;
+        self.readings.model.map_or(Ok(()), |model| model.check())?;
         let (x, y, turn) = laser.pose.unwrap_or_default();
         let numbers = [
             ("places.narrowest", places.narrowest, MayBe::Zero),

@@ -53,7 +53,7 @@ pub(super) fn read(
     };
     let answer = reader.read(exploration).map_err(SearchFailure::from)?;
     let Some(best) = answer.maps.first() else {
-        return Err(PipelineError::NoAccount { stop: answer.stop.to_string() });
+        return Err(PipelineError::NoAccount { stop: answer.stop });
     };
     let corrected =
         best.corrected(exploration).map_err(|problem| PipelineError::Corrected(Box::new(problem)))?;

@@ -41,6 +41,12 @@ fn the_exploration_as_it_must_have_been_needs_no_readings() {
 }
 
 #[test]
+fn the_map_is_explained_travel_by_travel() {
+    let output = hssh(&["explain", "fixtures/misread.ron", "--planar", "--readings"]);
+    assert!(text(&output.stdout).contains("place 8"), "{}", text(&output.stderr));
+}
+
+#[test]
 fn readings_need_measured_travels_and_no_log() {
     let output = hssh(&["map", "fixtures/figure-2-4.ron", "--readings"]);
     assert!(!output.status.success());

@@ -86,7 +86,7 @@ pub(super) fn draw(
 }
 
 fn draw_search(file: &Path, input: &Input, mapped: &Mapped) -> Result<(), Failure> {
-    let named = input.as_exploration().star_types().iter();
+    let named = mapped.exploration(input).star_types().iter();
     let bearings = Bearings(named.map(|named| named.bearings.clone()).collect());
     let drawn = TreeOptions { bearings, ..TreeOptions::default() };
     let Some(tree) = mapped.tree(drawn.most_maps) else { return Ok(()) };
