@@ -7,7 +7,7 @@
 
 mod drive;
 mod score;
-mod topology;
+pub(crate) mod topology;
 mod walls;
 
 use std::error::Error;

@@ -98,6 +98,8 @@ xflags::xflags! {
         }
         /// Injects errors of perception into explorations, and counts how often the true map is found, with readings and without.
         cmd readings {
+            /// The folder of data, for the building of ACES and for streets, which are left out without.
+            optional data: PathBuf
             /// Only worlds whose names begin so.
             optional --name name: String
             /// Only this rate of errors.

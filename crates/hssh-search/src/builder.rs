@@ -5,6 +5,7 @@ use std::sync::Arc;
 use hssh_metrics::SolveError;
 use hssh_topology::{Axioms, AxiomsError, Preference, ReadingModelError};
 
+use crate::constraints::{ConstraintError, VisitConstraints};
 use crate::crew::ThreadsError;
 use crate::limits::{Limits, Monitor};
 use crate::order::{Goal, Order, Proving};
@@ -38,6 +39,9 @@ pub enum MapperError {
     /// The model of perception is none.
     #[error("the model of perception makes no sense: {0}")]
     Reading(#[from] ReadingModelError),
+    /// What is known of which visits are to one place cannot be.
+    #[error(transparent)]
+    Constraints(#[from] ConstraintError),
     /// A travel is not measured, or badly.
     #[error(transparent)]
     Measurement(#[from] MeasurementError),
@@ -66,6 +70,7 @@ pub struct MapperBuilder {
     pub(crate) goal: Goal,
     pub(crate) proving: Proving,
     pub(crate) appearance: Appearance,
+    pub(crate) constraints: VisitConstraints,
     pub(crate) limits: Limits,
     pub(crate) threads: usize,
     pub(crate) monitor: Arc<Monitor>,
@@ -80,6 +85,7 @@ impl Default for MapperBuilder {
             goal: Goal::default(),
             proving: Proving::default(),
             appearance: Appearance::default(),
+            constraints: VisitConstraints::default(),
             limits: Limits::default(),
             threads: 1,
             monitor: Arc::default(),
@@ -134,6 +140,13 @@ impl MapperBuilder {
     #[must_use]
     pub fn appearance(self, appearance: Appearance) -> Self {
         MapperBuilder { appearance, ..self }
+    }
+
+    /// Which visits are known from elsewhere to be to one place, and which are not. By default nothing is known. [`count`](Self::count)
+    /// does not ask.
+    #[must_use]
+    pub fn constraints(self, constraints: VisitConstraints) -> Self {
+        MapperBuilder { constraints, ..self }
     }
 
     /// When to stop before the end.

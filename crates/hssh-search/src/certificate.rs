@@ -146,12 +146,17 @@ fn head(options: &MapperBuilder, exploration: &Exploration) -> String {
         (Goal::ClosedMap, Order::BestFirst | Order::Cyclic | Order::Proof) => "closed",
         (Goal::AnyMap, _) | (_, Order::BreadthFirst) => "any",
     };
+    let pairs = |word: &str, same: bool| -> String {
+        let pairs = options.constraints.asked().filter(|&(_, is_same)| is_same == same);
+        pairs.map(|([earlier, later], _)| format!("{word} {earlier} {later}\n")).collect()
+    };
+    let said = pairs("same", true) + &pairs("different", false);
     format!(
         "hssh-certificate 1\n\
          exploration {travels} {stars} {print:016x}\n\
          axioms {{\"no_self_intersection\":{},\"no_circular_path\":{},\"max_places\":{},\"max_genus\":{},\
          \"perpendicular\":{},\"consistent_boundaries\":{}}}\n\
-         goal {goal}\n",
+         goal {goal}\n{said}",
         axioms.no_self_intersection,
         axioms.no_circular_path,
         most(axioms.max_places),

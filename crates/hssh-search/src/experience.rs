@@ -3,6 +3,7 @@
 use hssh_causal::{Exploration, NamedStar, Odometry};
 use hssh_topology::{Hypothesis, Isomorphism, Observation, Olp, Position, Star, StarCatalog, StarId};
 
+use crate::constraints::VisitConstraints;
 use crate::visit::{Visit, VisitError};
 
 /// What a search explains. It grows by [`push`](Self::push), visit by visit.
@@ -18,6 +19,8 @@ pub struct Experience {
     bearings: Vec<Vec<Option<f64>>>,
     /// By travel.
     odometry: Vec<Option<Odometry>>,
+    /// What is known from elsewhere of which visits are to one place.
+    pub(crate) constraints: VisitConstraints,
 }
 
 impl Experience {
@@ -27,7 +30,20 @@ impl Experience {
         let mut catalog = StarCatalog::new();
         let start = catalog.add(star);
         let bearings = vec![complete(star, bearings)];
-        Experience { catalog, start, observations: Vec::new(), bearings, odometry: Vec::new() }
+        Experience {
+            catalog,
+            start,
+            observations: Vec::new(),
+            bearings,
+            odometry: Vec::new(),
+            constraints: VisitConstraints::default(),
+        }
+    }
+
+    /// The same, with what is known from elsewhere of which visits are to one place.
+    #[must_use]
+    pub fn with_constraints(self, constraints: VisitConstraints) -> Self {
+        Experience { constraints, ..self }
     }
 
     /// One visit more.
@@ -120,7 +136,14 @@ impl From<&Exploration> for Experience {
         };
         let observations = exploration.travels().iter().map(observe).collect();
         let odometry = exploration.travels().iter().map(|travel| travel.odometry).collect();
-        Experience { catalog, start: StarId::new(exploration.start().0), observations, bearings, odometry }
+        Experience {
+            catalog,
+            start: StarId::new(exploration.start().0),
+            observations,
+            bearings,
+            odometry,
+            constraints: VisitConstraints::default(),
+        }
     }
 }
 

@@ -72,6 +72,7 @@ impl MapperBuilder {
     /// if there is no map and some layout cannot be computed.
     pub fn explain(self, exploration: &Exploration) -> Result<Mapper, MapperError> {
         let watch = Watch::for_tree(self.limits, &self.monitor);
+        self.constraints.check(exploration.travels().len())?;
         let mut mapper = Mapper::new(self, Experience::from(exploration), &watch)?;
         mapper.go_on(&watch);
         match mapper.unsolvable() {
@@ -148,6 +149,7 @@ impl Mapper {
             model.check()?;
         }
         let crew = Crew::new(options.threads)?;
+        let experience = experience.with_constraints(options.constraints.clone());
         let context = Context { experience: &experience, axioms: &options.axioms, crew: &crew, watch };
         let MapperBuilder { order, goal, proving, .. } = options;
         let search = match options.objective {

@@ -1,9 +1,10 @@
 //! The recursive step applied to a node of a tree.
 
-use hssh_topology::{Hypothesis, Outcome, Rules, Step};
+use hssh_topology::{Hypothesis, MapOlp, Outcome, PlaceId, Rules, Step};
 
 use crate::context::Context;
 use crate::cursor::Cursor;
+use crate::experience::Experience;
 use crate::tree::{Child, NodeId, Tree};
 
 /// Which map [`successors`] shows with a successor.
@@ -31,6 +32,7 @@ pub(crate) fn successors(
     let hypothesis = cursor.go_to(node, tree, experience);
     let rules = Rules { catalog: &experience.catalog, axioms: context.axioms };
     hypothesis.step(observation, rules, step);
+    keep_allowed(hypothesis, node, tree, experience, step);
     let exit = hypothesis.exit(observation);
     for &derivation in &step.derivations {
         let arrival = hypothesis.arrival(observation, derivation);
@@ -45,4 +47,33 @@ pub(crate) fn successors(
         }
     }
     step.outcome
+}
+
+/// Strikes the successors out that are known from elsewhere to be wrong.
+fn keep_allowed(
+    hypothesis: &Hypothesis,
+    node: NodeId,
+    tree: &Tree,
+    experience: &Experience,
+    step: &mut Step,
+) {
+    let visit = tree.depth(node) + 1;
+    if !experience.constraints.concern(visit) {
+        return;
+    }
+    let map = &hypothesis.map;
+    let place_of = |olp: MapOlp| (olp.index() < map.olp_count() as usize).then(|| map.place(olp));
+    let branch = tree.branch(node);
+    let place_at = |visit: usize| match tree.arrival(branch[visit]) {
+        Some(arrival) => place_of(arrival),
+        None => Some(PlaceId::new(0)),
+    };
+    let observation = experience.observations[visit - 1];
+    step.derivations.retain(|&derivation| {
+        let place = place_of(hypothesis.arrival(observation, derivation));
+        experience.constraints.allow(visit, |earlier| place.is_some() && place_at(earlier) == place)
+    });
+    if step.outcome == Outcome::Predicted && step.derivations.is_empty() {
+        step.outcome = Outcome::Refuted;
+    }
 }

@@ -15,6 +15,8 @@ pub(crate) struct Header {
     pub(crate) axioms: Axioms,
     /// Whether only maps without pending gateways count.
     pub(crate) closed_only: bool,
+    /// Pairs of visits, each with whether they are said to be to one place.
+    pub(crate) said: Vec<([usize; 2], bool)>,
     pub(crate) objective: Objective,
     pub(crate) best: Claimed<Best>,
     pub(crate) maps: Claimed<u64>,
@@ -106,6 +108,7 @@ impl Header {
         let mut goal = lines.expect("goal")?;
         let closed_only = one_of(&mut goal, "a goal", &[("any", false), ("closed", true)])?;
         goal.finish()?;
+        let said = read_said(lines, route)?;
         let objective = read_objective(lines, route)?;
         let posterior = matches!(objective, Objective::Posterior(_));
         let best = read_best(lines.expect("best")?, posterior)?;
@@ -117,8 +120,30 @@ impl Header {
             matches!(&objective, Objective::Posterior(rules) if rules.metrical != Metrical::Ignored);
         let trusted = if measured { lines.next_if("trust").map(read_trust).transpose()? } else { None };
         lines.expect("tree")?.finish()?;
-        Ok(Header { axioms, closed_only, objective, best, maps, rest, trusted })
+        Ok(Header { axioms, closed_only, said, objective, best, maps, rest, trusted })
     }
+}
+
+/// `same <visit> <visit>` and `different <visit> <visit>`, any number of them.
+fn read_said(lines: &mut Lines<'_>, route: &Route) -> Result<Vec<([usize; 2], bool)>, Refusal> {
+    let mut said = Vec::new();
+    for (word, is_same) in [("same", true), ("different", false)] {
+        while let Some(mut statement) = lines.next_if(word) {
+            let mut visit = || -> Result<usize, Refusal> {
+                let visit: u64 = statement.count("a visit")?;
+                let visits = route.visits.len();
+                let known = usize::try_from(visit).ok().filter(|&visit| visit < visits);
+                known.ok_or_else(|| {
+                    statement.refuse(format!("there are {visits} visits, and none is {visit}"))
+                })
+            };
+            let mut pair = [visit()?, visit()?];
+            pair.sort_unstable();
+            statement.finish()?;
+            said.push((pair, is_same));
+        }
+    }
+    Ok(said)
 }
 
 fn finished<'a, T>(

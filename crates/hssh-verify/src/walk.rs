@@ -219,6 +219,33 @@ impl<'a> Walk<'a> {
         let Some(node) = self.branch.last_mut() else { return };
         self.stepper.successors(node.at, travel, &mut self.choices);
         node.end = self.choices.len();
+        self.keep_allowed();
+    }
+
+    /// Strikes the successors out that contradict what the head says of pairs of visits.
+    fn keep_allowed(&mut self) {
+        let visit = self.branch.len();
+        let Some(node) = self.branch.last() else { return };
+        let begin = node.begin;
+        let earlier: Vec<(usize, bool)> = self
+            .header
+            .said
+            .iter()
+            .filter(|([_, later], _)| *later == visit)
+            .map(|([earlier, _], is_same)| (self.branch[*earlier].at.place, *is_same))
+            .collect();
+        let is_allowed = |choice: &Choice| {
+            let place = match choice {
+                Choice::Moved(to) | Choice::Closure { to, .. } => Some(to.place),
+                Choice::New { .. } => None,
+            };
+            earlier.iter().all(|&(other, is_same)| (place == Some(other)) == is_same)
+        };
+        let allowed: Vec<Choice> = self.choices.drain(begin..).filter(is_allowed).collect();
+        self.choices.extend(allowed);
+        if let Some(node) = self.branch.last_mut() {
+            node.end = self.choices.len();
+        }
     }
 
     /// `o <bound>`: the node is left open, no map below it is as good as the best.

@@ -48,6 +48,23 @@ pub struct Misperceived {
 }
 
 impl Misperceived {
+    /// Pairs of visits that say which are to one place, and pairs that say which are not: of all visits but false ones.
+    #[must_use]
+    pub fn pairs(&self) -> [Vec<[usize; 2]>; 2] {
+        let first = |place: &PlaceId| self.visits.iter().position(|other| other.as_ref() == Some(place));
+        let (mut same, mut leaders) = (Vec::new(), Vec::new());
+        for (visit, place) in self.visits.iter().enumerate() {
+            match place.as_ref().and_then(first) {
+                Some(first) if first < visit => same.push([first, visit]),
+                _ => leaders.push(visit),
+            }
+        }
+        let pairs = |(number, &one): (usize, &usize)| -> Vec<[usize; 2]> {
+            leaders[..number].iter().map(|&other| [other, one]).collect()
+        };
+        [same, leaders.iter().enumerate().flat_map(pairs).collect()]
+    }
+
     /// Whether places are those of the world: two visits are to one place exactly if they were, and a report of no place is taken for none, or for a
     /// place where the robot was on no other visit.
     #[must_use]

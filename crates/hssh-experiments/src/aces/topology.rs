@@ -5,19 +5,19 @@ use std::ops::RangeInclusive;
 use hssh_world::{Crossing, Point, Street, StreetNetwork};
 
 /// The true map and the order in which the robot visited its places.
-pub(super) struct Topology {
-    pub(super) network: StreetNetwork,
-    pub(super) visits: Vec<Visit>,
+pub(crate) struct Topology {
+    pub(crate) network: StreetNetwork,
+    pub(crate) visits: Vec<Visit>,
 }
 
 /// A visit: a place's position in the network's crossings, and the scans taken there.
-pub(super) struct Visit {
-    pub(super) place: usize,
-    pub(super) scans: Vec<RangeInclusive<usize>>,
+pub(crate) struct Visit {
+    pub(crate) place: usize,
+    pub(crate) scans: Vec<RangeInclusive<usize>>,
 }
 
 /// Reads a topology. Two visits to one place in succession are one visit.
-pub(super) fn read(text: &str) -> Result<Topology, String> {
+pub(crate) fn read(text: &str) -> Result<Topology, String> {
     let mut topology = Topology { network: StreetNetwork::default(), visits: Vec::new() };
     for (index, line) in text.lines().enumerate() {
         read_line(line, &mut topology).ok_or_else(|| format!("topology line {}: `{line}`", index + 1))?;

@@ -3,10 +3,12 @@
 mod trial;
 
 use std::error::Error;
+use std::path::Path;
 
-use hssh_world::{cover, grid, random_planar, snake};
+use hssh_world::{cover, grid, momepy, random_planar, snake};
 use rayon::prelude::*;
 
+use crate::aces::topology;
 use crate::flags;
 use crate::noisy::{Chart, Curve, draw};
 use crate::table::aligned;
@@ -19,7 +21,7 @@ const RATES: [f64; 6] = [0.0, 0.05, 0.1, 0.2, 0.3, 0.4];
 pub(crate) fn run(flags: &flags::Readings) -> Result<(), Box<dyn Error>> {
     let means = Means { seconds: flags.seconds.unwrap_or(20.0), patience: flags.patience.unwrap_or(1_000) };
     let seeds = flags.seeds.unwrap_or(10);
-    let grounds: Vec<Ground> = grounds()?
+    let grounds: Vec<Ground> = grounds(flags.data.as_deref())?
         .into_iter()
         .filter(|ground| flags.name.as_ref().is_none_or(|name| ground.name.starts_with(name)))
         .collect();
@@ -65,7 +67,8 @@ pub(crate) fn run(flags: &flags::Readings) -> Result<(), Box<dyn Error>> {
     Ok(())
 }
 
-fn grounds() -> Result<Vec<Ground>, Box<dyn Error>> {
+/// Made worlds, and with the folder of data the hand-made map of a building and the streets of a quarter, every link taken.
+fn grounds(data: Option<&Path>) -> Result<Vec<Ground>, Box<dyn Error>> {
     let mut grounds = Vec::new();
     for side in 3..=6 {
         let world = grid(side, side, 8.0)?;
@@ -77,7 +80,22 @@ fn grounds() -> Result<Vec<Ground>, Box<dyn Error>> {
         let route = cover(&world, 1)?;
         grounds.push(Ground { name: format!("planar {places}"), world, route });
     }
+    if let Some(data) = data {
+        let aces = topology::read(&read(&data.join("logs/aces-topology.txt"))?)?.network;
+        let streets = momepy::read(&read(&data.join("streets/bubenec_streets.txt"))?)?;
+        for (name, network) in [("ACES", aces), ("streets", streets)] {
+            let world = network.to_world()?;
+            let route = cover(&world, 1)?;
+            grounds.push(Ground { name: name.to_owned(), world, route });
+        }
+    } else {
+        eprintln!("no folder of data: ACES and streets are left out");
+    }
     Ok(grounds)
+}
+
+fn read(path: &Path) -> Result<String, String> {
+    std::fs::read_to_string(path).map_err(|error| format!("{}: {error}", path.display()))
 }
 
 fn header() -> Vec<String> {
@@ -86,6 +104,7 @@ fn header() -> Vec<String> {
         "rate",
         "errors",
         "true",
+        "as probable",
         "proved",
         "found after",
         "expanded",
@@ -104,6 +123,7 @@ fn row(name: &str, rate: f64, outcomes: &[Outcome]) -> Vec<String> {
         format!("{rate:.2}"),
         format!("{:.1}", mean(&|outcome| outcome.errors as f64)),
         percent(&|outcome| outcome.right),
+        percent(&|outcome| outcome.probable),
         percent(&|outcome| outcome.proved),
         format!("{:.0}", mean(&|outcome| outcome.found_after as f64)),
         format!("{:.0}", mean(&|outcome| outcome.expanded as f64)),

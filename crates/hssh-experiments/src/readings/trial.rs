@@ -3,7 +3,7 @@
 use std::error::Error;
 use std::time::Duration;
 
-use hssh_search::{Limits, PosteriorModel, ReadAnswer, Reader};
+use hssh_search::{Limits, PosteriorModel, ReadAnswer, Reader, VisitConstraints};
 use hssh_topology::Axioms;
 use hssh_world::{DriftModel, ErrorRates, Misperceived, Route, World};
 
@@ -27,6 +27,8 @@ pub(super) struct Outcome {
     pub(super) errors: usize,
     /// The best account puts all visits where they were.
     pub(super) right: bool,
+    /// No account is known that puts all visits where they were and is more probable: the search did what the model allows.
+    pub(super) probable: bool,
     pub(super) proved: bool,
     pub(super) found_after: u64,
     pub(super) expanded: u64,
@@ -35,6 +37,9 @@ pub(super) struct Outcome {
     pub(super) exact_right: bool,
     pub(super) exact_found_after: u64,
 }
+
+/// Costs that differ by less are the same: nats.
+const SAME: f64 = 1e-6;
 
 const MOST_BYTES: u64 = 2 << 30;
 
@@ -54,12 +59,17 @@ impl Ground {
         let patience = Some(means.patience);
         let reader = Reader { axioms, limits, patience, ..Reader::new(model) };
         let read = reader.read(exploration)?;
-        let exact = reader.exact().read(exploration)?;
         let right =
             |answer: &ReadAnswer| answer.maps.first().is_some_and(|map| told.is_told_apart_by(&map.visits()));
+        let [same, different] = told.pairs();
+        let constraints = VisitConstraints::new(&same, &different)?;
+        let truth = Reader { constraints, ..reader.clone() }.read(exploration)?;
+        let cost = |answer: &ReadAnswer| answer.maps.first().map_or(f64::INFINITY, |map| map.cost.total());
+        let exact = reader.exact().read(exploration)?;
         Ok(Outcome {
             errors: told.errors.iter().sum(),
             right: right(&read),
+            probable: cost(&read) <= cost(&truth) + SAME,
             proved: read.proof.proved,
             found_after: read.found_after,
             expanded: read.expanded,

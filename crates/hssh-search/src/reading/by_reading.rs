@@ -4,7 +4,8 @@ use std::sync::Arc;
 
 use hssh_metrics::SolveError;
 use hssh_topology::{
-    Anywhere, Arrival, Derivation, MapOlp, Outcome, Reading, ReadingModel, Removals, TopologicalMap, Way,
+    Anywhere, Arrival, Derivation, MapOlp, Outcome, PlaceId, Reading, ReadingModel, Removals, TopologicalMap,
+    Way,
 };
 
 use crate::context::Context;
@@ -214,8 +215,18 @@ impl Appraise for ByReading {
             Some(geometry) => state.account.ways(observation.exit, sight, &self.reading, geometry),
             None => state.account.ways(observation.exit, sight, &self.reading, &Anywhere),
         };
+        let constraints = &context.experience.constraints;
+        let visits = constraints.concern(travel + 1).then(|| state.visits());
+        let is_allowed = |way: &Way| {
+            let place = way.arrival.reading().map(|reading| reading.place);
+            let is_there =
+                |visits: &[Option<PlaceId>], visit: usize| place.is_some() && visits[visit] == place;
+            visits
+                .as_ref()
+                .is_none_or(|visits| constraints.allow(travel + 1, |visit| is_there(visits, visit)))
+        };
         let mut successors = Vec::with_capacity(ways.len());
-        for (number, way) in ways.into_iter().enumerate() {
+        for (number, way) in ways.into_iter().enumerate().filter(|(_, way)| is_allowed(way)) {
             let (cost, promised) = self.pay(leaf, state, &way, geometry.as_ref(), context.experience)?;
             let stage = Stage::Sketched(Arc::clone(state), Arc::new(way));
             let burden = Burden { cost, bound: Nats(0.0), promised, spelled: NOTHING, stage };

@@ -8,6 +8,7 @@ use hssh_metrics::Pose;
 use hssh_topology::{Axioms, Chart, PlaceId, ReadingModel, TopologicalMap};
 
 use crate::builder::MapperError;
+use crate::constraints::VisitConstraints;
 use crate::context::Context;
 use crate::crew::Crew;
 use crate::engine::Engine;
@@ -34,6 +35,8 @@ pub struct Reader {
     pub bearing_deviation: Option<f64>,
     /// The axioms that maps have to satisfy.
     pub axioms: Axioms,
+    /// Which visits are known from elsewhere to be to one place, and which are not.
+    pub constraints: VisitConstraints,
     /// How many of the best accounts are to be found and proved.
     pub best: usize,
     /// Without a proof, stop when the best account has been the best for so many expansions.
@@ -109,6 +112,7 @@ impl Reader {
             reading: ReadingModel::default(),
             bearing_deviation: Some(BEARING_DEVIATION),
             axioms: Axioms::default(),
+            constraints: VisitConstraints::default(),
             best: 1,
             patience: None,
             limits: Limits::default(),
@@ -133,7 +137,8 @@ impl Reader {
         self.axioms.check()?;
         let started = Instant::now();
         let model = PosteriorModel { prior: MapPrior::Flat, ..self.model };
-        let experience = Experience::from(exploration);
+        self.constraints.check(exploration.travels().len())?;
+        let experience = Experience::from(exploration).with_constraints(self.constraints.clone());
         let crew = Crew::new(self.threads)?;
         let watch = Watch::for_tree(self.limits, &self.monitor);
         let context = Context { experience: &experience, axioms: &self.axioms, crew: &crew, watch: &watch };

@@ -221,6 +221,15 @@ impl State {
         passages
     }
 
+    /// Where the robot was on each visit, the start first; `None` where the report is of no place.
+    pub(crate) fn visits(&self) -> Vec<Option<PlaceId>> {
+        let traces = std::iter::successors(self.trace.as_ref(), |trace| trace.before.as_ref());
+        let mut visits: Vec<_> = traces.map(|trace| trace.step.place).collect();
+        visits.push(Some(PlaceId::new(0)));
+        visits.reverse();
+        visits
+    }
+
     /// About what it takes.
     pub(crate) fn bytes(&self) -> u64 {
         let chart = self.account.chart.end_count() * 64 + self.places.len() * 80;

@@ -23,6 +23,8 @@ pub enum Worth {
 pub enum Assumption {
     /// Every star was seen as it is, and every travel went as reported.
     Perception,
+    /// What was said of which visits are to one place, and which are not, is true.
+    Visits,
     /// The covariances of measured travels are what they are said to be.
     Covariances,
     /// Odometry bends a layout by no less than a fixed part of the linear estimate.
@@ -83,6 +85,13 @@ impl CertificateSummary {
         }
     }
 
+    /// Says that the maps are those that agree with what was said of visits.
+    pub(crate) fn trust_said(&mut self, pairs: usize) {
+        let said = counted(pairs, "pair");
+        let sentence = format!("what was said of {said} of visits, to one place or to two, is true");
+        self.trusted.push(Trusted::held(Assumption::Visits, sentence));
+    }
+
     /// Says that the maps are those of an account of what was misread; what it does not prove, they do not either.
     pub(crate) fn trust_readings(&mut self, account: &ReadingAccount) {
         self.proved &= account.proved;
@@ -109,7 +118,7 @@ impl CertificateSummary {
                 "the bound relied on linear estimates that proved wrong by more than it allows for, so that nothing is \
                  proved."
             }
-            Assumption::Perception | Assumption::Covariances => {
+            Assumption::Perception | Assumption::Covariances | Assumption::Visits => {
                 "the input contradicts what was taken on trust, so that nothing is proved."
             }
         })

@@ -30,6 +30,14 @@ pub(crate) struct SearchArguments {
     #[arg(long, help_heading = "Search")]
     pub(crate) readings: bool,
 
+    /// Two visits are known to be to the same place, whatever they look like; visits count from 0, the start, and this may be said
+    /// of many pairs.
+    #[arg(long, value_name = "VISIT,VISIT", value_parser = visits, help_heading = "Search")]
+    pub(crate) same: Vec<[usize; 2]>,
+    /// Two visits are known to be to different places.
+    #[arg(long, value_name = "VISIT,VISIT", value_parser = visits, help_heading = "Search")]
+    pub(crate) different: Vec<[usize; 2]>,
+
     #[command(flatten)]
     pub(crate) posterior: PosteriorArguments,
     #[command(flatten)]
@@ -117,6 +125,8 @@ impl SearchArguments {
         if self.readings {
             options.readings.model.get_or_insert_default();
         }
+        options.visits.same.extend(&self.same);
+        options.visits.different.extend(&self.different);
         options.search.threads = self.threads.unwrap_or(options.search.threads);
         options.limits.nodes = self.max_nodes.or(options.limits.nodes);
         options.limits.seconds = self.max_time.or(options.limits.seconds);
@@ -178,6 +188,14 @@ fn seconds(text: &str) -> Result<f64, String> {
     let seconds: f64 = text.parse().map_err(|_| "write a number of seconds, like 10 or 0.5".to_owned())?;
     let is_time = Duration::try_from_secs_f64(seconds).is_ok();
     is_time.then_some(seconds).ok_or_else(|| "the time must be positive and finite".to_owned())
+}
+
+fn visits(text: &str) -> Result<[usize; 2], String> {
+    let numbers: Option<Vec<usize>> = text.split(',').map(|number| number.trim().parse().ok()).collect();
+    match numbers.as_deref() {
+        Some(&[one, other]) => Ok([one, other]),
+        _ => Err("write two visits, counted from 0, like 3,17".to_owned()),
+    }
 }
 
 fn weights(text: &str) -> Result<Simplicity, String> {

@@ -77,6 +77,7 @@ impl Task<'_> {
             SearchObjective::Preference => self.builder(),
             SearchObjective::Posterior => self.builder().posterior(self.model()?),
         };
+        let builder = builder.constraints(self.options.visits.constraints()?);
         let builder = builder.order(order).goal(self.goal()).proving(Proving {
             best: self.options.posterior.best,
             rest: self.options.posterior.rest,

@@ -49,6 +49,14 @@ pub enum PipelineError {
         /// Why the search stopped.
         stop: StopReason,
     },
+    /// What is said of visits cannot be.
+    #[error(transparent)]
+    Visits(#[from] hssh_search::ConstraintError),
+    /// Counting does not ask which visits are to one place.
+    #[error(
+        "hypotheses are counted whatever is said of visits: leave out --same and --different, or search in another way"
+    )]
+    CountedVisits,
     /// The model of perception.
     #[error("the option readings.model: {0}")]
     Readings(#[from] ReadingModelError),

@@ -15,7 +15,7 @@ pub use input::{Input, SurveyedLog};
 pub use laser::LaserChoice;
 pub use options::{
     GenusOrder, MappingOptions, MetricalScore, OptionsError, PosteriorChoice, PriorKind, SearchChoice,
-    SearchLimits, SearchMethod,
+    SearchLimits, SearchMethod, VisitChoice,
 };
 pub use places::PlaceChoice;
 pub use reading::ReadingChoice;
@@ -62,9 +62,10 @@ struct PlacedMap {
 /// gives no threads.
 pub fn map(input: &Input, options: &MappingOptions, monitor: &Arc<Monitor>) -> Result<Mapped, PipelineError> {
     options.check()?;
-    let mut options = *options;
+    let mut options = options.clone();
     let considered = options.limits.travels.unwrap_or(usize::MAX).min(input.exploration.travels().len());
     let exploration = input.exploration.prefix(considered);
+    options.visits.constraints()?.check(considered)?;
     let mut warnings = input.surveyed.as_ref().map(SurveyedLog::warnings).unwrap_or_default();
     if input.surveyed.is_none() {
         for doubt in exploration.doubts() {
@@ -87,7 +88,11 @@ pub fn map(input: &Input, options: &MappingOptions, monitor: &Arc<Monitor>) -> R
     };
     if let Some(reading::Read { exploration, account }) = read {
         let corrected = Input::exploration(input.name.clone(), exploration);
+        // What is said of visits that are taken for none is true of no place.
+        let number = |told: usize| account.visits.iter().find(|[other, _]| *other == told as u64);
+        let number = |told: usize| number(told).map(|&[_, visit]| visit as usize);
         let exact = MappingOptions {
+            visits: options.visits.renumbered(number),
             readings: ReadingChoice::default(),
             limits: SearchLimits { travels: None, ..options.limits },
             ..options
@@ -106,6 +111,10 @@ pub fn map(input: &Input, options: &MappingOptions, monitor: &Arc<Monitor>) -> R
     let mut certificate = searched.certificate.clone();
     if let Some(evidence) = &account.evidence {
         certificate.trust_survey(evidence);
+    }
+    let said = options.visits.same.len() + options.visits.different.len();
+    if said > 0 {
+        certificate.trust_said(said);
     }
     let answer = Answer {
         format: Answer::FORMAT.to_owned(),
@@ -210,6 +219,7 @@ impl MappingOptions {
             {
                 Err(PipelineError::GenusOfPosterior)
             }
+            SearchMethod::Count if self.visits != VisitChoice::default() => Err(PipelineError::CountedVisits),
             method => Ok(method),
         }
     }

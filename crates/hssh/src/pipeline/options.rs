@@ -1,6 +1,7 @@
 //! Every number and switch on the way from input to answer, by level, each with its default beside it.
 
 use clap::ValueEnum;
+use hssh_search::{ConstraintError, VisitConstraints};
 use hssh_topology::{Axioms, Simplicity};
 use ron::error::SpannedError;
 use ron::extensions::Extensions;
@@ -24,7 +25,7 @@ use super::reading::ReadingChoice;
 /// assert_eq!((error.line(), error.column()), (2, 12));
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
-#[derive(Clone, Copy, PartialEq, Debug, Serialize, Deserialize)]
+#[derive(Clone, PartialEq, Debug, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct MappingOptions {
     /// How a log's laser looks and sits.
@@ -37,6 +38,8 @@ pub struct MappingOptions {
     pub axioms: Axioms,
     /// What makes a map probable.
     pub posterior: PosteriorChoice,
+    /// Which visits are known to be to one place, and which are not.
+    pub visits: VisitChoice,
     /// Whether perception may have erred.
     pub readings: ReadingChoice,
     /// When to stop.
@@ -53,10 +56,39 @@ impl Default for MappingOptions {
             search: SearchChoice::default(),
             axioms: Axioms::default(),
             posterior: PosteriorChoice::default(),
+            visits: VisitChoice::default(),
             readings: ReadingChoice::default(),
             limits: SearchLimits::default(),
             listed: Some(10),
         }
+    }
+}
+
+/// What somebody knows of visits, counted from 0, the start. Maps that say otherwise explain nothing.
+#[derive(Clone, PartialEq, Eq, Debug, Default, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct VisitChoice {
+    /// Pairs of visits to the same place.
+    pub same: Vec<[usize; 2]>,
+    /// Pairs of visits to different places.
+    pub different: Vec<[usize; 2]>,
+}
+
+impl VisitChoice {
+    /// As the search takes them.
+    ///
+    /// # Errors
+    /// If they contradict one another.
+    pub fn constraints(&self) -> Result<VisitConstraints, ConstraintError> {
+        VisitConstraints::new(&self.same, &self.different)
+    }
+
+    /// The same of other numbers: pairs with a visit that has none are left out.
+    pub(super) fn renumbered(&self, number: impl Fn(usize) -> Option<usize>) -> Self {
+        let renumber = |pairs: &[[usize; 2]]| -> Vec<[usize; 2]> {
+            pairs.iter().filter_map(|&[one, other]| Some([number(one)?, number(other)?])).collect()
+        };
+        VisitChoice { same: renumber(&self.same), different: renumber(&self.different) }
     }
 }
 

@@ -44,6 +44,7 @@ pub(super) fn read(
     let reader = Reader {
         reading,
         axioms: options.axioms,
+        constraints: options.visits.constraints()?,
         best: options.posterior.best,
         patience: Some(options.readings.patience),
         limits: options.limits.of_search(),

@@ -12,3 +12,4 @@ mod readings;
 mod signals;
 mod simulate;
 mod stars;
+mod visits;
