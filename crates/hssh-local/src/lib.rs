@@ -44,7 +44,7 @@ pub use carmen::{
 };
 pub use closing::{ClosedTrack, ClosingError, ClosingOptions, Closure, close_loops};
 pub use distance::DistanceField;
-pub use global_map::{global_map, global_poses, mean_wall_distance, visit_frames};
+pub use global_map::{building_map, global_map, global_poses, mean_wall_distance, visit_frames};
 pub use grid::{Cell, CellLine, GridError, Lattice, LatticeError, Occupancy, OccupancyGrid};
 pub use local_map::{LocalMap, LocalMapOptions};
 pub use map_server::{
@@ -72,5 +72,5 @@ pub use skeleton::{
 };
 pub use survey::{
     Evidence, PerceptionModel, Resemblance, Survey, SurveyError, SurveyOptions, SurveyStage, SurveyWarning,
-    Visit, resemblance, survey,
+    Visit, doubts, resemblance, survey,
 };

@@ -101,6 +101,8 @@ pub(crate) enum Failure {
     ReadLog { file: PathBuf, error: Box<hssh_local::LogError> },
     #[error("{}: {error}", file.display())]
     Survey { file: PathBuf, error: Box<hssh_local::SurveyError> },
+    #[error("the track is no pose graph: {0}")]
+    TrackGraph(#[from] hssh_metrics::GraphError),
     #[error("{} proves nothing: {refusal}", file.display())]
     Refused { file: PathBuf, refusal: hssh_verify::Refusal },
     #[error("nothing is proved, so that there is no certificate: see the verdict above")]

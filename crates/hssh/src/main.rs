@@ -31,6 +31,7 @@ fn main() -> ExitCode {
         Command::Explain(options) => command::explain::run(&options),
         Command::Graph(options) => command::graph::run(&options),
         Command::Stars(options) => command::stars::run(&options),
+        Command::Track(options) => command::track::run(&options),
         Command::Explore(options) => command::explore::run(&options),
         Command::Simulate(options) => command::simulate::run(&options),
         Command::Verify(options) => command::verify::run(&options),

@@ -85,6 +85,8 @@ pub(super) struct Figures {
     /// Of raw odometry, the track and the closed track: root mean square of the distance from the truth, in metres.
     pub(super) off: [Option<f64>; 3],
     pub(super) close: Option<f64>,
+    /// Of the closed track, and of the corrected poses.
+    pub(super) blur: [Option<f64>; 2],
     pub(super) revisit_recall: Option<f64>,
     pub(super) revisit_precision: Option<f64>,
     pub(super) visits: usize,
@@ -109,6 +111,7 @@ impl Figures {
             metres: revisits.length(),
             off: [Some(off(&raw)), Some(off(track)), closed.map(off)],
             close: closed.and_then(|poses| revisits.close_error(poses)),
+            blur: [closed, Some(&truth[..])].map(|poses| revisits.blur(&mapping.log, poses?)),
             revisit_recall: closed.and_then(|poses| revisits.recall(poses)),
             revisit_precision: closed.and_then(|poses| revisits.precision(poses)),
             visits: mapping.surveyed().map_or(0, |surveyed| surveyed.survey.visits.len()),
@@ -156,6 +159,7 @@ mod tests {
             metres: 20.0,
             off: [Some(2.0), Some(1.0), Some(0.1)],
             close: Some(0.1),
+            blur: [Some(0.1); 2],
             revisit_recall: Some(0.5),
             revisit_precision: Some(1.0),
             visits: 2,

@@ -15,6 +15,8 @@ pub(super) fn of_logs(all: &[Figures]) -> String {
         "track, m",
         "closed, m",
         "close, m",
+        "blur, m",
+        "of the reference",
         "recall",
         "precision",
         "visits",
@@ -34,6 +36,7 @@ pub(super) fn of_logs(all: &[Figures]) -> String {
         let mut row = vec![log.name.to_owned(), log.scans.to_string(), format!("{:.0}", log.metres)];
         row.extend(log.off.map(|off| number(off, 2)));
         row.push(number(log.close, 3));
+        row.extend(log.blur.map(|blur| number(blur, 3)));
         row.extend([log.revisit_recall, log.revisit_precision].map(|part| number(part, 3)));
         row.push(log.visits.to_string());
         row.extend([log.size.map(|size| size.0), log.size.map(|size| size.1)].map(count));
@@ -83,5 +86,5 @@ pub(super) fn of_drift(all: &[Drift]) -> String {
 }
 
 fn size(metres: f64, radians: f64) -> String {
-    format!("{metres:.3} m {:.2}°", radians.to_degrees())
+    format!("{metres:.4} m {:.2}°", radians.to_degrees())
 }

@@ -1,5 +1,6 @@
 //! Scores trajectories and maps of logs against poses and relations that are known.
 
+mod blur;
 mod fit;
 mod places;
 mod relations;

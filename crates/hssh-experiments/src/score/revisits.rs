@@ -2,7 +2,10 @@
 
 use std::collections::BTreeMap;
 
+use hssh_local::LaserLog;
 use hssh_metrics::Pose;
+
+use super::blur::blur;
 
 /// The robot is back where it was if it travelled so far since, in metres.
 const LEAST_TRAVEL: f64 = 15.0;
@@ -43,6 +46,11 @@ impl<'a> Revisits<'a> {
             let truth = self.truth[earlier].between(self.truth[later]);
             truth.between(poses[earlier].between(poses[later])).translation().norm()
         }))
+    }
+
+    /// How far hits at revisits lie from one another's, placed by a trajectory: metres. None if there are no such scans.
+    pub(crate) fn blur(&self, log: &LaserLog, poses: &[Pose]) -> Option<f64> {
+        blur(log, self.truth, &self.close, poses)
     }
 
     /// Of the pairs of scans that truly are at one spot, the part that the trajectory has at one spot.

@@ -3,7 +3,7 @@
 
 use hssh_metrics::{
     Covariance, Edge, GraphError, Kernel, Options, Pose, PoseGraph, PoseId, RobustSolution, SolveError,
-    UncertainPose, UncertaintyError, solve, solve_robustly,
+    UncertainPose, UncertaintyError, reweighted, solve, solve_robustly,
 };
 
 use super::chain::{Linked, chain, linked, recent, told};
@@ -11,6 +11,7 @@ use super::keyframe::{Keyframe, keyframes};
 use super::matching::{Match, find};
 use super::options::ClosingOptions;
 use super::refine::refine;
+use super::scans::all_scans;
 use super::search::Window;
 use super::submap::{Submap, middles};
 use super::ways::{Known, Ways};
@@ -56,10 +57,19 @@ pub struct Closure {
 /// A track with its loops closed.
 #[derive(Clone, PartialEq, Debug)]
 pub struct ClosedTrack {
-    /// The robot at each scan, in the frame of the first.
-    pub poses: Vec<Pose>,
-    /// What holds it together beside the tracked motion.
+    /// All scans: a pose for each in the frame of the first, solved; an edge for each tracked step, and one for each match
+    /// of a scan with an earlier pass, its information scaled by how much it counts.
+    pub graph: PoseGraph,
+    /// The returns that were found.
     pub closures: Vec<Closure>,
+}
+
+impl ClosedTrack {
+    /// The robot at each scan, in the frame of the first.
+    #[must_use]
+    pub fn poses(&self) -> &[Pose] {
+        self.graph.poses()
+    }
 }
 
 /// Why loops cannot be closed.
@@ -298,22 +308,26 @@ impl<'a> Closing<'a> {
         }
     }
 
-    /// The robust minimum with keyframes matched one by one, and the corrections between keyframes.
+    /// The robust minimum with keyframes matched one by one, and all scans in one graph.
     fn finish(mut self, track: &Track) -> Result<ClosedTrack, ClosingError> {
-        let coarse = self.solve_robustly()?;
+        let mut robust = self.solve_robustly()?;
         let middle = |submap: usize| self.submaps[submap].middle;
-        let believed = self.accepted.iter().zip(&coarse.weights[self.tracked..]);
+        let believed = self.accepted.iter().zip(&robust.weights[self.tracked..]);
         let believed: Vec<(usize, usize)> = believed
             .filter(|&(_, &weight)| weight >= BELIEVED)
             .map(|(found, _)| (middle(found.reference), middle(found.query)))
             .collect();
-        for fine in refine(&self.keyframes, &coarse.poses, &believed, self.options) {
-            let (from, to) = (PoseId(fine.from as u32), PoseId(fine.to as u32));
-            let UncertainPose { mean, covariance } = fine.relative;
-            self.graph.add_edge(Edge::observed(from, to, mean, &covariance))?;
+        let found = self.graph.clone();
+        for _ in 0..self.options.refinements {
+            self.graph = found.clone();
+            for fine in refine(&self.keyframes, &robust.poses, &believed, self.options) {
+                let (from, to) = (PoseId(fine.from as u32), PoseId(fine.to as u32));
+                let UncertainPose { mean, covariance } = fine.relative;
+                self.graph.add_edge(Edge::observed(from, to, mean, &covariance))?;
+            }
+            self.graph.set_poses(robust.poses)?;
+            robust = self.solve_robustly()?;
         }
-        self.graph.set_poses(coarse.poses)?;
-        let robust = self.solve_robustly()?;
         let scan = |submap: usize| self.keyframes[self.submaps[submap].middle].scan;
         let closures = self.accepted.iter().zip(&robust.weights[self.tracked..]);
         let closures = closures.map(|(found, &weight)| Closure {
@@ -325,7 +339,10 @@ impl<'a> Closing<'a> {
             spread: found.spread,
             weight,
         });
-        Ok(ClosedTrack { poses: spread(&self.keyframes, &robust.poses, track), closures: closures.collect() })
+        let closures = closures.collect();
+        let between = reweighted(&self.graph, &robust.poses, &robust.weights);
+        let graph = all_scans(track, &self.keyframes, &between)?;
+        Ok(ClosedTrack { graph, closures })
     }
 
     /// The minimum in which closures that the rest contradicts count little.
@@ -335,24 +352,4 @@ impl<'a> Closing<'a> {
         let kernel = |edge: &Edge| is_closure(edge).then_some(Kernel::DynamicCovarianceScaling(KERNEL));
         solve_robustly(&self.graph, kernel, &Options::default())
     }
-}
-
-/// The pose of every scan: between keyframes the tracked motion, bent so that it begins and ends at theirs.
-fn spread(keyframes: &[Keyframe], poses: &[Pose], track: &Track) -> Vec<Pose> {
-    let mut all = vec![Pose::IDENTITY; track.scans.len()];
-    for (index, pair) in keyframes.windows(2).enumerate() {
-        let (start, end) = (poses[index], poses[index + 1]);
-        let last = start.compose(pair[0].tracked.between(pair[1].tracked));
-        let correction = last.between(end).log();
-        let length = (pair[1].scan - pair[0].scan) as f64;
-        let scans = pair[0].scan..=pair[1].scan;
-        for (number, scan) in scans.enumerate() {
-            let moved = start.compose(pair[0].tracked.between(track.scans[scan].pose));
-            all[scan] = moved.compose(Pose::exp(correction * (number as f64 / length)));
-        }
-    }
-    if let ([_], [only]) = (keyframes, poses) {
-        all.fill(*only);
-    }
-    all
 }

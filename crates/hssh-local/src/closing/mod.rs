@@ -8,6 +8,7 @@ mod keyframe;
 mod matching;
 mod options;
 mod refine;
+mod scans;
 mod search;
 mod submap;
 mod ways;

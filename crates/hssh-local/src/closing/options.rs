@@ -48,6 +48,8 @@ pub struct ClosingOptions {
     pub floor: (f64, f64),
     /// The same of a match of one keyframe.
     pub fine_floor: (f64, f64),
+    /// So often all keyframes are matched with other passes: the better the poses, the better the walls of those.
+    pub refinements: usize,
 }
 
 impl Default for ClosingOptions {
@@ -74,6 +76,7 @@ impl Default for ClosingOptions {
             longest_chain: 16,
             floor: (0.04, 0.006),
             fine_floor: (0.02, 0.004),
+            refinements: 2,
         }
     }
 }

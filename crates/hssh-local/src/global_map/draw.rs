@@ -49,6 +49,40 @@ pub fn global_map(
     poses: &[Pose],
     options: &LocalMapOptions,
 ) -> Result<OccupancyGrid, LatticeError> {
+    drawn(log, poses, options, |_, _| true)
+}
+
+/// The grid map of a building for a robot to drive by: cells of 0.05 m. All scans that saw a cell count the same, so that
+/// where people stood once and others looked through later, nothing is.
+///
+/// # Errors
+/// If the poses are not finite, or so far apart that the grid would be too large.
+pub fn building_map(log: &LaserLog, poses: &[Pose]) -> Result<OccupancyGrid, LatticeError> {
+    /// A scan taken nearer to the one before, in metres and radians, shows nothing new.
+    const NEW: (f64, f64) = (0.2, 0.2);
+    /// A cell is seen through more often than hit if its sum is below 0, and one of each says that it is free.
+    const HIT: f32 = 0.9;
+    let options = LocalMapOptions {
+        resolution: 0.05,
+        hit: HIT,
+        miss: 1.0,
+        bounds: (-1e4, 1e4),
+        thresholds: (-0.05, 0.05),
+        ..LocalMapOptions::default()
+    };
+    drawn(log, poses, &options, |last, pose| {
+        let moved = last.between(pose);
+        moved.translation().norm() > NEW.0 || moved.theta.abs() > NEW.1
+    })
+}
+
+/// What the scans draw that are new after the last one drawn.
+fn drawn(
+    log: &LaserLog,
+    poses: &[Pose],
+    options: &LocalMapOptions,
+    is_new: impl Fn(Pose, Pose) -> bool,
+) -> Result<OccupancyGrid, LatticeError> {
     let first = poses.first().map_or(Vector2::zeros(), |pose| pose.translation());
     let (mut low, mut high) = (first, first);
     for pose in poses {
@@ -57,10 +91,14 @@ pub fn global_map(
     }
     let side = (high - low).max() + 2.0 * options.reach;
     let mut map = LocalMap::new((low + high) / 2.0, LocalMapOptions { side, ..*options })?;
-    for (index, (pose, logged)) in poses.iter().zip(&log.scans).enumerate() {
-        map.insert(*pose, &logged.scan);
-        if let Some(before) = index.checked_sub(1) {
-            map.clear_way(poses[before], *pose);
+    let mut last: Option<Pose> = None;
+    for (pose, logged) in poses.iter().zip(&log.scans) {
+        if last.is_none_or(|last| is_new(last, *pose)) {
+            map.insert(*pose, &logged.scan);
+            if let Some(last) = last {
+                map.clear_way(last, *pose);
+            }
+            last = Some(*pose);
         }
     }
     Ok(map.classify())

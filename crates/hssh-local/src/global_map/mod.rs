@@ -6,5 +6,5 @@ mod draw;
 mod frames;
 
 pub use compare::mean_wall_distance;
-pub use draw::{global_map, global_poses};
+pub use draw::{building_map, global_map, global_poses};
 pub use frames::visit_frames;

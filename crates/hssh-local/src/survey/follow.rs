@@ -5,7 +5,7 @@ use hssh_metrics::Pose;
 
 use super::error::{SurveyError, SurveyWarning};
 use super::evidence::evidence;
-use super::lost::lost;
+use super::lost::doubts;
 use super::options::SurveyOptions;
 use super::visit::{Survey, Visit};
 use crate::carmen::LaserLog;
@@ -53,12 +53,12 @@ pub fn survey<R: Into<Reply>>(
         log
     };
     let closed = close_loops(log, &track, &options.closing, |scans| tell(SurveyStage::Closing, scans))?;
-    for (scan, pose) in track.scans.iter_mut().zip(&closed.poses) {
+    for (scan, pose) in track.scans.iter_mut().zip(closed.poses()) {
         *scan = TrackedScan { pose: *pose, ..*scan };
     }
-    let local_map = building_options(&closed.poses, options);
-    let building = global_map(log, &closed.poses, &local_map)?;
-    let found = route(&building, &closed.poses, options.window, &options.route, &options.place);
+    let local_map = building_options(closed.poses(), options);
+    let building = global_map(log, closed.poses(), &local_map)?;
+    let found = route(&building, closed.poses(), options.window, &options.route, &options.place);
     tell(SurveyStage::Looking, log.scans.len());
     if found.visits.is_empty() {
         let metres = track.scans.last().map_or(0.0, |scan| scan.travelled);
@@ -80,13 +80,13 @@ pub fn survey<R: Into<Reply>>(
         }
     });
     let (mut evidence, mut warnings) = evidence(&track, &closed.closures);
-    let lost = lost(log, &track);
+    let lost = doubts(log, &track);
     evidence.lost = lost.len();
     warnings.extend(lost);
     if stopped {
         warnings.push(SurveyWarning::Interrupted { scans: log.scans.len() });
     }
-    Survey::new(visits.collect(), track, closed.closures, evidence, options, warnings)
+    Survey::new(visits.collect(), track, closed, evidence, options, warnings)
 }
 
 /// How the map of the building is drawn: with cells so large that the routes' grid has not too many.

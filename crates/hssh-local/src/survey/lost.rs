@@ -8,7 +8,8 @@ use crate::matching::Track;
 
 /// Where the robot was lost: so many scans in a row, or so large a part of all, lie on nothing that was seen before; or
 /// it has no odometry at all.
-pub(super) fn lost(log: &LaserLog, track: &Track) -> Vec<SurveyWarning> {
+#[must_use]
+pub fn doubts(log: &LaserLog, track: &Track) -> Vec<SurveyWarning> {
     const IN_A_ROW: usize = 5;
     const PART: f64 = 0.2;
     let mut warnings = Vec::new();
@@ -62,19 +63,19 @@ mod tests {
 
     #[test]
     fn a_scan_here_and_there_is_no_loss() {
-        assert_eq!(lost(&log(0.5), &track(&[3, 4, 9, 20])), []);
+        assert_eq!(doubts(&log(0.5), &track(&[3, 4, 9, 20])), []);
     }
 
     #[test]
     fn many_in_a_row_or_in_all_are() {
-        let row = lost(&log(0.5), &track(&[3, 10, 11, 12, 13, 14, 30]));
+        let row = doubts(&log(0.5), &track(&[3, 10, 11, 12, 13, 14, 30]));
         assert_eq!(row, [SurveyWarning::Lost { first: 11, last: 15 }]);
         let many: Vec<usize> = (0..40).step_by(3).collect();
-        assert_eq!(lost(&log(0.5), &track(&many)), [SurveyWarning::Lost { first: 1, last: 40 }]);
+        assert_eq!(doubts(&log(0.5), &track(&many)), [SurveyWarning::Lost { first: 1, last: 40 }]);
     }
 
     #[test]
     fn a_robot_that_moves_without_odometry_has_none() {
-        assert_eq!(lost(&log(0.0), &track(&[])), [SurveyWarning::NoOdometry]);
+        assert_eq!(doubts(&log(0.0), &track(&[])), [SurveyWarning::NoOdometry]);
     }
 }

@@ -1,13 +1,13 @@
 //! Visits: places as the robot met them, and the ways between them.
 
-use hssh_metrics::{Covariance, Pose, UncertainPose, UncertaintyError};
+use hssh_metrics::{Covariance, Pose, PoseGraph, UncertainPose, UncertaintyError};
 use hssh_topology::{Olp, PlaceId, Position};
 use rustc_hash::FxHashMap;
 
 use super::error::{SurveyError, SurveyWarning};
 use super::evidence::Evidence;
 use super::options::SurveyOptions;
-use crate::closing::Closure;
+use crate::closing::{ClosedTrack, Closure};
 use crate::grid::OccupancyGrid;
 use crate::matching::Track;
 use crate::place::LocalStar;
@@ -45,6 +45,8 @@ pub struct Survey {
     pub track: Track,
     /// Where the robot was before, as the laser shows.
     pub closures: Vec<Closure>,
+    /// The tracked steps of all scans and what closes their loops, with the poses of the track.
+    pub graph: PoseGraph,
     /// What speaks for these closures, and against them.
     pub evidence: Evidence,
     /// What was decided with little reason.
@@ -55,7 +57,7 @@ impl Survey {
     pub(super) fn new(
         visits: Vec<Visit>,
         track: Track,
-        closures: Vec<Closure>,
+        ClosedTrack { graph, closures }: ClosedTrack,
         evidence: Evidence,
         options: &SurveyOptions,
         warnings: Vec<SurveyWarning>,
@@ -68,7 +70,7 @@ impl Survey {
                     .map_err(|problem| SurveyError::Motion { visit: index + 1, problem })
             })
             .collect::<Result<_, _>>()?;
-        Ok(Survey { visits, travels, track, closures, evidence, warnings })
+        Ok(Survey { visits, travels, track, closures, graph, evidence, warnings })
     }
 }
 

@@ -129,7 +129,7 @@ fn twice() -> Vec<[f64; 2]> {
 #[test]
 fn a_track_that_drifts_by_metres_is_closed() {
     let closed = Closed::new(&ring(), &twice(), 0.002, believed);
-    let (before, after) = (closed.error(&closed.tracked()), closed.error(&closed.closed.poses));
+    let (before, after) = (closed.error(&closed.tracked()), closed.error(&closed.closed.poses()));
     assert!(before > 2.0 && after < 0.2, "{before} m, closed {after} m");
     assert!(closed.closed.closures.len() > 20, "{:?}", closed.closed.closures);
     for closure in &closed.closed.closures {
@@ -146,7 +146,7 @@ fn a_track_that_drifts_by_metres_is_closed() {
 #[test]
 fn what_scan_matching_leaves_is_closed() {
     let closed = Closed::new(&ring(), &twice(), 0.02, matched);
-    let (before, after) = (closed.error(&closed.tracked()), closed.error(&closed.closed.poses));
+    let (before, after) = (closed.error(&closed.tracked()), closed.error(&closed.closed.poses()));
     assert!(before > 0.3 && after < 0.1, "{before} m, closed {after} m");
     assert!(closed.closed.closures.len() > 20, "{:?}", closed.closed.closures);
     for closure in &closed.closed.closures {
@@ -161,7 +161,7 @@ fn what_scan_matching_leaves_is_closed() {
 fn the_opposite_direction_closes_too() {
     let again = [[24.0, 0.0], [0.0, 0.0], [0.0, 24.0], [24.0, 24.0], [24.0, 2.0]];
     let closed = Closed::new(&ring(), &[&ONCE[..], &again].concat(), 0.01, matched);
-    let (before, after) = (closed.error(&closed.tracked()), closed.error(&closed.closed.poses));
+    let (before, after) = (closed.error(&closed.tracked()), closed.error(&closed.closed.poses()));
     assert!(before > 0.2 && after < 0.1, "{before} m, closed {after} m");
     let mut opposite = 0;
     for closure in &closed.closed.closures {
@@ -193,7 +193,7 @@ fn corridors_that_look_alike_stay_apart() {
     for track in [believed, matched] {
         let closed = Closed::new(&spaces, &way, 0.001, track);
         assert_eq!(wrong(&closed), []);
-        let after = closed.error(&closed.closed.poses);
+        let after = closed.error(&closed.closed.poses());
         assert!(after < 0.5, "{after} m");
     }
 }
@@ -231,7 +231,7 @@ fn corridors_that_look_alike_stay_apart_after_a_long_way() {
         let way = [[0.0, 0.0], [0.0, 24.0], [far, 24.0], [far, 0.0], [apart, 0.0], [apart, 22.0]];
         for track in [believed, matched] {
             let closed = Closed::new(&spaces, &way, 0.0003, track);
-            let (before, after) = (closed.error(&closed.tracked()), closed.error(&closed.closed.poses));
+            let (before, after) = (closed.error(&closed.tracked()), closed.error(&closed.closed.poses()));
             eprintln!(
                 "{apart} m apart: {} wrong closures; {before} m off, closed {after} m",
                 wrong(&closed).len()

@@ -1,4 +1,4 @@
-//! What the other commands find, as plain data: contents of explorations, places of maps and logs, surveys of logs, drives
+//! What the other commands find, as plain data: contents of explorations, places of maps and logs, surveys and tracks of logs, drives
 //! of simulated robots, and optimized pose graphs.
 
 mod contents;
@@ -9,6 +9,7 @@ mod pose_graph;
 mod regions;
 mod roadmap;
 mod survey;
+mod track;
 
 pub use contents::{CausalContents, ContentsAccount, SchemaContents, StarTypeContents};
 pub use drive::{DriveAccount, DrivePlace, DriveStop};
@@ -21,3 +22,4 @@ pub use pose_graph::{JudgedEdge, LabeledPoint, LabeledPose, PoseGraphAccount, Sk
 pub use regions::{PassageAccount, RegionAccount};
 pub use roadmap::{RoadNodeAccount, RoadmapAccount, WayAccount};
 pub use survey::{SurveyAccount, SurveyedEnd, SurveyedTravel, SurveyedVisit};
+pub use track::{TrackAccount, TrackedPose};

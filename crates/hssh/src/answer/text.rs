@@ -8,7 +8,7 @@ use super::certificate::Worth;
 use super::map::AnsweredMap;
 use super::search::{SearchObjective, SearchOrder};
 use super::verdict::VerdictKind;
-use super::{Answer, AnswerWarning, Assumption, WarningKind};
+use super::{Answer, Assumption};
 
 /// What to print of an answer.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
@@ -37,18 +37,7 @@ impl Answer {
     /// Why the best map may well be wrong, if it may.
     #[must_use]
     pub fn doubt(&self) -> Option<String> {
-        let is_serious = |warning: &&AnswerWarning| {
-            matches!(
-                warning.kind,
-                WarningKind::ImprobableTravel
-                    | WarningKind::Lost
-                    | WarningKind::NoOdometry
-                    | WarningKind::LaserView
-                    | WarningKind::Questionable
-                    | WarningKind::SurveyInterrupted
-            )
-        };
-        if let Some(warning) = self.warnings.iter().find(is_serious) {
+        if let Some(warning) = self.warnings.iter().find(|warning| warning.is_serious()) {
             return Some(warning.to_string());
         }
         let [least, most] = self.maps.first()?.probability?;

@@ -74,6 +74,20 @@ impl AnswerWarning {
     /// How many spots are listed at most.
     pub const MOST_SPOTS: usize = 10;
 
+    /// Whether what comes out may well be wrong for it.
+    #[must_use]
+    pub fn is_serious(&self) -> bool {
+        matches!(
+            self.kind,
+            WarningKind::ImprobableTravel
+                | WarningKind::Lost
+                | WarningKind::NoOdometry
+                | WarningKind::LaserView
+                | WarningKind::Questionable
+                | WarningKind::SurveyInterrupted
+        )
+    }
+
     /// A warning that occurred once, nowhere in particular.
     pub(crate) fn once(kind: WarningKind, sentence: String) -> Self {
         AnswerWarning { kind, count: 1, sentence, spots: Vec::new() }

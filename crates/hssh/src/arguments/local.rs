@@ -29,6 +29,30 @@ pub(crate) struct ExploreArguments {
 }
 
 #[derive(Debug, Args)]
+pub(crate) struct TrackArguments {
+    /// The log: CARMEN text with FLASER messages, plain or gzip; `-` reads standard input.
+    pub(crate) log: PathBuf,
+    /// Write where every scan was taken, in TUM form: time x y z qx qy qz qw, a line for each scan in the order of the
+    /// log, in metres in the frame of the first.
+    #[arg(long, value_name = "FILE")]
+    pub(crate) trajectory: Option<PathBuf>,
+    /// Write the grid map that the scans draw, as PNG, or, if the file ends in .yaml, for ROS map_server.
+    #[arg(long, value_name = "FILE")]
+    pub(crate) grid: Option<PathBuf>,
+    /// Write a pose for each scan and an edge for each step with its information, as g2o.
+    #[arg(long, value_name = "FILE")]
+    pub(crate) g2o: Option<PathBuf>,
+    /// Refuse a log of which scans cannot be used or that breaks off, instead of warning.
+    #[arg(long)]
+    pub(crate) strict: bool,
+    /// Print one JSON object: the pose of every scan, and what the track is worth.
+    #[arg(long)]
+    pub(crate) json: bool,
+    #[command(flatten)]
+    pub(crate) laser: LaserArguments,
+}
+
+#[derive(Debug, Args)]
 pub(crate) struct SimulateArguments {
     /// The map: the YAML file of ROS `map_server`.
     pub(crate) map: Option<PathBuf>,

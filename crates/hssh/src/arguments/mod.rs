@@ -12,6 +12,7 @@ use crate::failure::Failure;
 
 pub(crate) use local::{
     ExploreArguments, ExportKind, LaserArguments, PlaceArguments, SimulateArguments, StarsArguments,
+    TrackArguments,
 };
 pub(crate) use search::SearchArguments;
 
@@ -35,6 +36,8 @@ pub(crate) enum Command {
     Graph(GraphArguments),
     /// Find the places of a grid map: their gateways, their stars, and what connects them.
     Stars(StarsArguments),
+    /// Correct the odometry of a robot's laser log by matching scan with scan: no places, no loops.
+    Track(TrackArguments),
     /// Make an exploration from a robot's laser log: find the places it visited, and their stars.
     Explore(ExploreArguments),
     /// Drive a simulated robot through a grid map, and write its laser log.
@@ -83,7 +86,8 @@ pub(crate) struct MapArguments {
     /// With --readings: write the exploration as it must have been, as RON.
     #[arg(long, value_name = "FILE", requires = "readings")]
     pub(crate) corrected: Option<PathBuf>,
-    /// Write the pose graph of the best map, laid out, as g2o.
+    /// Write the pose graph of the best map, laid out, as g2o; with a laser log: all its scans, the steps between them and
+    /// what closes their loops.
     #[arg(long, value_name = "FILE")]
     pub(crate) g2o: Option<PathBuf>,
     /// With a laser log: write the grid map of the whole building, as PNG, or, if the file ends in .yaml, for

@@ -9,6 +9,7 @@ pub(crate) mod map;
 pub(crate) mod simulate;
 mod stages;
 pub(crate) mod stars;
+pub(crate) mod track;
 pub(crate) mod verify;
 
 use hssh::pipeline::MappingOptions;

@@ -7,9 +7,11 @@ use std::time::Duration;
 
 use hssh::answer::AnswerWarning;
 use hssh::kind::FileKind;
-use hssh::pipeline::{Input, MappingOptions, SurveyedLog};
+use hssh::pipeline::{Input, LaserChoice, MappingOptions, SurveyedLog, TrackedLog};
 use hssh_causal::Exploration;
-use hssh_local::{LaserLog, OccupancyGrid, Reply, SurveyError, SurveyStage, read_map_with_remarks};
+use hssh_local::{
+    LaserLog, MatchOptions, OccupancyGrid, Reply, SurveyError, SurveyStage, read_map_with_remarks,
+};
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 
 use crate::failure::Failure;
@@ -57,21 +59,53 @@ pub(crate) fn read_surveyed(file: &Path, options: &MappingOptions) -> Result<Sur
     }
 }
 
+/// The laser log in a file, tracked scan by scan; warnings go to standard error.
+pub(crate) fn read_tracked(
+    file: &Path,
+    laser: &LaserChoice,
+    options: &MatchOptions,
+) -> Result<TrackedLog, Failure> {
+    let source = Source::open(file)?;
+    if !matches!(source.kind(), FileKind::LaserLog(_) | FileKind::Text | FileKind::Empty) {
+        return Err(source.unfit("a laser log"));
+    }
+    let log = read_log(file, source, laser)?;
+    let bar = progress_bar(log.scans.len() as u64);
+    bar.set_message("matching scans");
+    let tracked = TrackedLog::new(log, options, |done| {
+        bar.set_position(done as u64);
+        if is_interrupted() { Reply::Stop } else { Reply::GoOn }
+    });
+    bar.finish_and_clear();
+    warn(file, &tracked.warnings());
+    Ok(tracked)
+}
+
+fn read_log(file: &Path, source: Source, laser: &LaserChoice) -> Result<LaserLog, Failure> {
+    keep_on_signals();
+    let unreadable = |error| Failure::ReadLog { file: file.to_owned(), error: Box::new(error) };
+    LaserLog::read_with(source.into_content(), &laser.mount()).map_err(unreadable)
+}
+
+/// Shows on standard error how much is done.
+fn progress_bar(length: u64) -> ProgressBar {
+    let bar = ProgressBar::with_draw_target(Some(length), ProgressDrawTarget::stderr_with_hz(10));
+    if let Ok(style) = ProgressStyle::with_template("{spinner} {msg} {bar:30} {percent}%  {elapsed}") {
+        bar.set_style(style);
+    }
+    bar.enable_steady_tick(Duration::from_millis(100));
+    bar
+}
+
 /// A CARMEN log and the places along it, with a progress bar on standard error; warnings go there, too.
 pub(crate) fn surveyed(
     file: &Path,
     source: Source,
     options: &MappingOptions,
 ) -> Result<SurveyedLog, Failure> {
-    keep_on_signals();
-    let unreadable = |error| Failure::ReadLog { file: file.to_owned(), error: Box::new(error) };
-    let log = LaserLog::read_with(source.into_content(), &options.laser.mount()).map_err(unreadable)?;
+    let log = read_log(file, source, &options.laser)?;
     let scans = log.scans.len() as u64;
-    let bar = ProgressBar::with_draw_target(Some(3 * scans), ProgressDrawTarget::stderr_with_hz(10));
-    if let Ok(style) = ProgressStyle::with_template("{spinner} {msg} {bar:30} {percent}%  {elapsed}") {
-        bar.set_style(style);
-    }
-    bar.enable_steady_tick(Duration::from_millis(100));
+    let bar = progress_bar(3 * scans);
     let surveyed = SurveyedLog::new(log, options, |stage, done| {
         let (message, before) = match stage {
             SurveyStage::Tracking => ("matching scans", 0),

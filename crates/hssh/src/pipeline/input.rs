@@ -4,13 +4,13 @@ use std::io::Read;
 
 use hssh_causal::{Exploration, ParseError};
 use hssh_local::{
-    LaserLog, LogError, LogWarning, PerceptionModel, Reply, Survey, SurveyError, SurveyStage, SurveyWarning,
-    survey,
+    LaserLog, LogError, PerceptionModel, Reply, Survey, SurveyError, SurveyStage, SurveyWarning, survey,
 };
 
 use super::error::PipelineError;
 use super::options::MappingOptions;
-use crate::answer::{AnswerWarning, AnsweredEvidence, AnsweredInput, InputKind, Spot, WarningKind};
+use super::scans;
+use crate::answer::{AnswerWarning, AnsweredEvidence, AnsweredInput, InputKind};
 
 /// What maps are to explain.
 #[derive(Clone, Debug)]
@@ -117,30 +117,22 @@ impl SurveyedLog {
     /// How many laser scans the log has, those that cannot be used among them.
     #[must_use]
     pub fn scans(&self) -> u64 {
-        self.log.scans.len() as u64 + self.unusable().count() as u64
+        scans::all(&self.log)
     }
 
     /// The number of a scan among all laser scans of the log.
     #[must_use]
     pub fn scan_number(&self, used: usize) -> u64 {
-        let line = self.log.scans[used].line;
-        used as u64 + self.unusable().filter(|&unusable| unusable < line).count() as u64
+        scans::number(&self.log, used)
     }
 
     /// What of the log is missing from what is made of it, in words, if it is more than a scan here and there: a tenth of all
     /// scans, or its end.
     #[must_use]
     pub fn partial(&self) -> Option<String> {
-        let (all, lost) = (self.scans(), self.unusable().count() as u64);
-        let broken = self.log.warnings.iter().find(|warning| matches!(warning, LogWarning::BreaksOff { .. }));
         let stopped = |warning: &&SurveyWarning| matches!(warning, SurveyWarning::Interrupted { .. });
-        if let Some(stopped) = self.survey.warnings.iter().find(stopped) {
-            return Some(stopped.to_string());
-        }
-        if 10 * lost >= all {
-            return Some(format!("{lost} of {all} scans of the log could not be used"));
-        }
-        broken.map(LogWarning::to_string)
+        let stopped = self.survey.warnings.iter().find(stopped).map(SurveyWarning::to_string);
+        stopped.or_else(|| scans::partial(&self.log))
     }
 
     /// What its places rest on, in numbers.
@@ -158,50 +150,14 @@ impl SurveyedLog {
     /// The first thing in the log that is missing from what is made of it, in words.
     #[must_use]
     pub fn first_loss(&self) -> Option<String> {
-        self.log.warnings.iter().find(|warning| warning.is_loss()).map(LogWarning::to_string)
-    }
-
-    /// The lines with scans that cannot be used.
-    fn unusable(&self) -> impl Iterator<Item = u64> + '_ {
-        self.log.warnings.iter().filter_map(|warning| match warning {
-            LogWarning::Message { line, kind, .. } if kind == "FLASER" => Some(*line),
-            _ => None,
-        })
+        scans::first_loss(&self.log)
     }
 
     /// What was left out of the log, or decided with little reason.
     #[must_use]
     pub fn warnings(&self) -> Vec<AnswerWarning> {
-        let mut warnings = Vec::new();
-        for warning in &self.log.warnings {
-            let (kind, line) = match warning {
-                LogWarning::Message { line, .. } => (WarningKind::MessageLeftOut, Some(*line)),
-                LogWarning::BreaksOff { line, .. } => (WarningKind::BreaksOff, Some(*line)),
-                LogWarning::OddBeams { line, .. } => (WarningKind::BeamsWithoutRange, Some(*line)),
-                LogWarning::Jump { line, .. } => (WarningKind::OdometryJump, Some(*line)),
-                LogWarning::RangeLimit { .. } => (WarningKind::RangeLimit, None),
-                LogWarning::LimitDoubted { .. } => (WarningKind::RangeLimit, None),
-                LogWarning::View { .. } => (WarningKind::LaserView, None),
-                LogWarning::LaserPose { .. } => (WarningKind::LaserPose, None),
-            };
-            match line {
-                Some(line) => {
-                    AnswerWarning::record(&mut warnings, kind, Spot::Line(line), || warning.to_string());
-                }
-                None => warnings.push(AnswerWarning::once(kind, warning.to_string())),
-            }
-        }
-        for warning in &self.survey.warnings {
-            let (kind, scan) = match *warning {
-                SurveyWarning::Contradicted { scan, .. } => (WarningKind::ContradictedReturn, scan),
-                SurveyWarning::Unconfirmed { scan, .. } => (WarningKind::UnconfirmedReturn, scan),
-                SurveyWarning::Lost { first, .. } => (WarningKind::Lost, first),
-                SurveyWarning::NoOdometry => (WarningKind::NoOdometry, 1),
-                SurveyWarning::Interrupted { scans } => (WarningKind::SurveyInterrupted, scans),
-            };
-            let spot = Spot::Scan(self.scan_number(scan - 1));
-            AnswerWarning::record(&mut warnings, kind, spot, || warning.to_string());
-        }
+        let mut warnings = scans::warnings(&self.log);
+        scans::warn_of(&self.survey.warnings, &self.log, &mut warnings);
         warnings
     }
 }

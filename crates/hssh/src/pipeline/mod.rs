@@ -8,6 +8,8 @@ mod laser;
 mod options;
 mod places;
 mod reading;
+mod scans;
+mod tracked;
 
 pub use engine::Monitor;
 pub use error::{PipelineError, SearchFailure};
@@ -19,15 +21,14 @@ pub use options::{
 };
 pub use places::PlaceChoice;
 pub use reading::ReadingChoice;
+pub use tracked::TrackedLog;
 
 use std::sync::Arc;
 use std::thread::available_parallelism;
 
 use hssh_causal::Exploration;
 use hssh_draw::SearchTree;
-use hssh_local::{
-    LocalMapOptions, OccupancyGrid, PerceptionModel, global_map, global_poses, resemblance, visit_frames,
-};
+use hssh_local::{OccupancyGrid, PerceptionModel, building_map, global_poses, resemblance, visit_frames};
 use hssh_metrics::{Pose, PoseGraph};
 use hssh_topology::{Isomorphism, Position};
 
@@ -322,20 +323,23 @@ impl Mapped {
         let surveyed = input.surveyed.as_ref()?;
         let tracked = || surveyed.survey.track.scans.iter().map(|scan| scan.pose).collect();
         let poses = self.scan_poses(input, rank).unwrap_or_else(tracked);
-        let mut trajectory: Vec<(f64, Pose)> = Vec::new();
-        for (used, pose) in poses.iter().enumerate() {
-            let number = surveyed.scan_number(used) as usize;
-            let before = trajectory.last().map_or(*pose, |last| last.1);
-            while trajectory.len() < number {
-                trajectory.push((trajectory.len() as f64, before));
-            }
-            trajectory.push((surveyed.log.scans[used].time.unwrap_or(number as f64), *pose));
-        }
-        let last = trajectory.last().map_or(Pose::IDENTITY, |last| last.1);
-        while (trajectory.len() as u64) < surveyed.scans() {
-            trajectory.push((trajectory.len() as f64, last));
-        }
-        Some(trajectory)
+        Some(scans::timed(&surveyed.log, &poses))
+    }
+
+    /// All scans of the log in one pose graph, in the frame of the first place of a map: the tracked steps, and what the laser
+    /// shows of the ways that the robot came back to. If the map has visits at another place than the laser shows, the matches
+    /// that contradict it are left out, and an edge for each visit says at which place it has it. `None` without a log, or
+    /// without such a map.
+    #[must_use]
+    pub fn scan_graph(&self, input: &Input, rank: usize) -> Option<PoseGraph> {
+        let SurveyedLog { survey, .. } = input.surveyed.as_ref()?;
+        let poses = self.scan_poses(input, rank)?;
+        let PlacedMap { positions, .. } = self.placed(rank)?;
+        Some(if survey.agrees_with(positions) {
+            survey.placed_graph(poses)
+        } else {
+            survey.bent_graph(poses, positions)
+        })
     }
 
     /// The grid map of the whole building, all scans in the frame of the first place of a map.
@@ -345,7 +349,7 @@ impl Mapped {
     pub fn building(&self, input: &Input, rank: usize) -> Result<OccupancyGrid, PipelineError> {
         let poses = self.scan_poses(input, rank);
         let (surveyed, poses) = input.surveyed.as_ref().zip(poses).ok_or(PipelineError::NoScans)?;
-        Ok(global_map(&surveyed.log, &poses, &LocalMapOptions::default())?)
+        Ok(building_map(&surveyed.log, &poses)?)
     }
 
     fn placed(&self, rank: usize) -> Option<&PlacedMap> {

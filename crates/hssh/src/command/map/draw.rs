@@ -1,19 +1,17 @@
 //! The pictures of the best maps and of the search tree, the pose graph of each, and the grid of the building.
 
-use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 
 use hssh::answer::{Answer, AnsweredMap, MapPicture, SearchObjective};
 use hssh::pipeline::{Input, Mapped, PipelineError};
 use hssh_draw::{Bearings, TreeOptions, draw_tree, tree_to_dot};
-use hssh_local::{encode_png, write_map};
 use hssh_metrics::GraphFile;
 
 use crate::arguments::MapArguments;
 use crate::command::stages::{building_file, map_file};
 use crate::failure::Failure;
 use crate::output::{
-    Written, check_folder, check_outputs, refuse_input, say_written, write_bytes, write_file,
+    Written, check_folder, check_outputs, grid_image, refuse_input, write_file, write_grid, write_tum,
 };
 
 /// Whether any picture or file is asked for.
@@ -25,7 +23,7 @@ pub(super) fn is_asked(arguments: &MapArguments) -> bool {
 /// Refuses outputs that cannot be written, before anything is searched.
 pub(super) fn check(arguments: &MapArguments) -> Result<(), Failure> {
     let MapArguments { svg, dot, tree, g2o, grid, trajectory, certificate, corrected, .. } = arguments;
-    let grid_image = grid.as_deref().filter(|grid| is_yaml(grid)).map(|grid| grid.with_extension("pgm"));
+    let grid_image = grid_image(grid.as_deref());
     let outputs =
         [svg, dot, tree, g2o, grid, trajectory, certificate, corrected, &grid_image].map(Option::as_ref);
     check_outputs(&[&arguments.file], outputs)?;
@@ -78,8 +76,9 @@ pub(super) fn draw(
             written.note(write_building(&file, input, mapped, rank));
         }
         if let Some(file) = g2o {
-            let graph = graph.ok_or(Failure::NoOdometry)?;
-            written.note(write_file(&file, &GraphFile::from(graph.clone()).to_g2o()));
+            let graph =
+                mapped.scan_graph(input, rank).or_else(|| graph.cloned()).ok_or(Failure::NoOdometry)?;
+            written.note(write_file(&file, &GraphFile::from(graph).to_g2o()));
         }
     }
     Ok(())
@@ -97,29 +96,12 @@ fn draw_search(file: &Path, input: &Input, mapped: &Mapped) -> Result<(), Failur
 
 /// Writes the grid of the building, for ROS `map_server` if the file ends so.
 fn write_building(file: &Path, input: &Input, mapped: &Mapped, rank: usize) -> Result<(), Failure> {
-    let grid = mapped.building(input, rank)?;
-    if is_yaml(file) {
-        write_map(&grid, file)?;
-        say_written(file);
-        Ok(())
-    } else {
-        write_bytes(file, &encode_png(&grid))
-    }
+    write_grid(file, &mapped.building(input, rank)?)
 }
 
 /// Writes where every scan was taken, one line each.
 fn write_trajectory(file: &Path, input: &Input, mapped: &Mapped, rank: usize) -> Result<(), Failure> {
-    let trajectory = mapped.trajectory(input, rank).ok_or(PipelineError::NoScans)?;
-    let mut text = String::new();
-    for (time, pose) in trajectory {
-        let (sin, cos) = (pose.theta / 2.0).sin_cos();
-        let _ = writeln!(text, "{time} {:.6} {:.6} 0 0 0 {sin:.9} {cos:.9}", pose.x, pose.y);
-    }
-    write_file(file, &text)
-}
-
-fn is_yaml(file: &Path) -> bool {
-    file.extension().is_some_and(|ending| ending == "yaml" || ending == "yml")
+    write_tum(file, &mapped.trajectory(input, rank).ok_or(PipelineError::NoScans)?)
 }
 
 /// What the best maps are, in the singular.

@@ -1,0 +1,99 @@
+//! The scans of a log by their number among all that it has, those that cannot be used among them.
+
+use hssh_local::{LaserLog, LogWarning, SurveyWarning};
+use hssh_metrics::Pose;
+
+use crate::answer::{AnswerWarning, Spot, WarningKind};
+
+/// The lines with scans that cannot be used.
+fn unusable(log: &LaserLog) -> impl Iterator<Item = u64> + '_ {
+    log.warnings.iter().filter_map(|warning| match warning {
+        LogWarning::Message { line, kind, .. } if kind == "FLASER" => Some(*line),
+        _ => None,
+    })
+}
+
+/// How many laser scans a log has.
+pub(super) fn all(log: &LaserLog) -> u64 {
+    log.scans.len() as u64 + unusable(log).count() as u64
+}
+
+/// The number of a used scan among all of a log.
+pub(super) fn number(log: &LaserLog, used: usize) -> u64 {
+    let line = log.scans[used].line;
+    used as u64 + unusable(log).filter(|&unusable| unusable < line).count() as u64
+}
+
+/// When every scan was taken and where: those that cannot be used have the pose of the scan before, and their number for a
+/// time. `poses` has one for each that is used.
+pub(super) fn timed(log: &LaserLog, poses: &[Pose]) -> Vec<(f64, Pose)> {
+    let mut timed: Vec<(f64, Pose)> = Vec::new();
+    for (used, pose) in poses.iter().enumerate() {
+        let number = number(log, used) as usize;
+        let before = timed.last().map_or(*pose, |last| last.1);
+        while timed.len() < number {
+            timed.push((timed.len() as f64, before));
+        }
+        timed.push((log.scans[used].time.unwrap_or(number as f64), *pose));
+    }
+    let last = timed.last().map_or(Pose::IDENTITY, |last| last.1);
+    while (timed.len() as u64) < all(log) {
+        timed.push((timed.len() as f64, last));
+    }
+    timed
+}
+
+/// What of a log is missing from what is made of it, in words, if it is more than a scan here and there: a tenth of all
+/// scans, or its end.
+pub(super) fn partial(log: &LaserLog) -> Option<String> {
+    let (all, lost) = (all(log), unusable(log).count() as u64);
+    if 10 * lost >= all {
+        return Some(format!("{lost} of {all} scans of the log could not be used"));
+    }
+    let broken = log.warnings.iter().find(|warning| matches!(warning, LogWarning::BreaksOff { .. }));
+    broken.map(LogWarning::to_string)
+}
+
+/// The first thing in a log that is missing from what is made of it, in words.
+pub(super) fn first_loss(log: &LaserLog) -> Option<String> {
+    log.warnings.iter().find(|warning| warning.is_loss()).map(LogWarning::to_string)
+}
+
+/// What was passed over in a log.
+pub(super) fn warnings(log: &LaserLog) -> Vec<AnswerWarning> {
+    let mut warnings = Vec::new();
+    for warning in &log.warnings {
+        let (kind, line) = match warning {
+            LogWarning::Message { line, .. } => (WarningKind::MessageLeftOut, Some(*line)),
+            LogWarning::BreaksOff { line, .. } => (WarningKind::BreaksOff, Some(*line)),
+            LogWarning::OddBeams { line, .. } => (WarningKind::BeamsWithoutRange, Some(*line)),
+            LogWarning::Jump { line, .. } => (WarningKind::OdometryJump, Some(*line)),
+            LogWarning::RangeLimit { .. } | LogWarning::LimitDoubted { .. } => {
+                (WarningKind::RangeLimit, None)
+            }
+            LogWarning::View { .. } => (WarningKind::LaserView, None),
+            LogWarning::LaserPose { .. } => (WarningKind::LaserPose, None),
+        };
+        match line {
+            Some(line) => {
+                AnswerWarning::record(&mut warnings, kind, Spot::Line(line), || warning.to_string());
+            }
+            None => warnings.push(AnswerWarning::once(kind, warning.to_string())),
+        }
+    }
+    warnings
+}
+
+/// Adds what was decided with little reason along a log.
+pub(super) fn warn_of(found: &[SurveyWarning], log: &LaserLog, warnings: &mut Vec<AnswerWarning>) {
+    for warning in found {
+        let (kind, scan) = match *warning {
+            SurveyWarning::Contradicted { scan, .. } => (WarningKind::ContradictedReturn, scan),
+            SurveyWarning::Unconfirmed { scan, .. } => (WarningKind::UnconfirmedReturn, scan),
+            SurveyWarning::Lost { first, .. } => (WarningKind::Lost, first),
+            SurveyWarning::NoOdometry => (WarningKind::NoOdometry, 1),
+            SurveyWarning::Interrupted { scans } => (WarningKind::SurveyInterrupted, scans),
+        };
+        AnswerWarning::record(warnings, kind, Spot::Scan(number(log, scan - 1)), || warning.to_string());
+    }
+}
