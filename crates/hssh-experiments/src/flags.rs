@@ -65,6 +65,16 @@ xflags::xflags! {
             repeated --python interpreter: PathBuf
             /// Solves of each file, after one that does not count; 9 if not given.
             optional --runs count: usize
+            /// Instead of the public graphs: a simulated campus of so many poses, such as 100000.
+            optional --campus poses: usize
+        }
+        /// Injects wrong closures into pose graphs, those of the scans of two logs among them, and measures how far the poses
+        /// then are from those without.
+        cmd wrong-closures {
+            /// The folder that contains `logs/` and `posegraph/`; the environment variable HSSH_DATA if not given.
+            optional data: PathBuf
+            /// The Python interpreter that has gtsam; without it, GTSAM is left out.
+            optional --python interpreter: PathBuf
         }
         /// Makes fixtures/aces.ron from the laser log of the ACES building.
         cmd aces {
@@ -83,6 +93,9 @@ xflags::xflags! {
         cmd log {
             /// The folder that contains `logs/` and `relations/`.
             required data: PathBuf
+            /// Also run MRPT's icp-slam and rbpf-slam on the same scans, which takes minutes; a line says so if they are not
+            /// installed.
+            optional --mrpt
         }
         /// Measures how often a survey errs, on real logs and simulated drives, and whether probabilities of maps are what
         /// they say.

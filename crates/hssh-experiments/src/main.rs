@@ -5,6 +5,7 @@ mod aces;
 mod bench;
 mod branching;
 mod calibrate;
+mod campus;
 mod causal;
 mod experiment;
 #[allow(unreachable_pub)] // generated
@@ -21,6 +22,7 @@ mod score;
 mod table;
 mod theory;
 mod trials;
+mod wrong_closures;
 
 use std::error::Error;
 use std::process::ExitCode;
@@ -44,6 +46,7 @@ fn run(command: ExperimentsCmd) -> Result<(), Box<dyn Error>> {
         ExperimentsCmd::Causal(flags) => causal::run(&flags),
         ExperimentsCmd::Bench(flags) => bench::run(&flags),
         ExperimentsCmd::Peers(flags) => peers::run(&flags),
+        ExperimentsCmd::WrongClosures(flags) => wrong_closures::run(&flags),
         ExperimentsCmd::Measure(flags) => bench::speed::measure(&flags),
         ExperimentsCmd::Aces(flags) => {
             let out = flags.out.unwrap_or_else(|| root::fixtures().join("aces.ron"));
@@ -51,7 +54,7 @@ fn run(command: ExperimentsCmd) -> Result<(), Box<dyn Error>> {
             Ok(())
         }
         ExperimentsCmd::Grids(flags) => grids::run(&flags),
-        ExperimentsCmd::Log(flags) => log::run(&flags.data),
+        ExperimentsCmd::Log(flags) => log::run(&flags),
         ExperimentsCmd::Calibrate(flags) => calibrate::run(&flags),
         ExperimentsCmd::Readings(flags) => readings::run(&flags),
         ExperimentsCmd::Trials(flags) => trials::run(&flags),

@@ -8,6 +8,7 @@ use std::process::Command;
 use hssh_metrics::{GraphFile, Options, Solution, chordal_poses, solve};
 use serde::Deserialize;
 
+use crate::campus::campus;
 use crate::flags;
 use crate::pose_graphs::{PUBLIC, Timing, folder, read, time};
 use crate::root;
@@ -28,10 +29,10 @@ struct Peer {
 
 /// `cargo xtask peers`.
 pub(crate) fn run(flags: &flags::Peers) -> Result<(), Box<dyn Error>> {
-    let (folder, runs) = (folder(flags.data.as_deref())?, flags.runs.unwrap_or(9).max(1));
+    let runs = flags.runs.unwrap_or(9).max(1);
     let starts = std::env::temp_dir().join(format!("hssh-peers-{}", std::process::id()));
     fs::create_dir_all(&starts)?;
-    let compared = compare(&folder, &starts, flags, runs);
+    let compared = compare(&starts, flags, runs);
     fs::remove_dir_all(&starts)?;
     println!(
         "Pose graphs from chordal poses until χ² falls by less than {TOLERANCE:.0e} of itself: times of one solve,"
@@ -46,16 +47,19 @@ pub(crate) fn run(flags: &flags::Peers) -> Result<(), Box<dyn Error>> {
     Ok(())
 }
 
-fn compare(
-    folder: &Path,
-    starts: &Path,
-    flags: &flags::Peers,
-    runs: usize,
-) -> Result<Vec<Vec<String>>, Box<dyn Error>> {
+fn compare(starts: &Path, flags: &flags::Peers, runs: usize) -> Result<Vec<Vec<String>>, Box<dyn Error>> {
     let heads = ["", "program", "iterations", "χ²", "best ms", "median ms", "× same start", "× from edges"];
     let mut rows = vec![heads.map(str::to_owned).to_vec()];
-    for (name, _) in PUBLIC {
-        let mut file = read(folder, name)?;
+    let graphs: Vec<(String, GraphFile)> = match flags.campus {
+        Some(poses) => vec![(format!("campus-{poses}.g2o"), campus(poses))],
+        None => {
+            let folder = folder(flags.data.as_deref())?;
+            let named = |(name, _): &(&str, _)| Ok(((*name).to_owned(), read(&folder, name)?));
+            PUBLIC.iter().map(named).collect::<Result<_, Box<dyn Error>>>()?
+        }
+    };
+    for (name, mut file) in graphs {
+        let name = name.as_str();
         let chordal = time(runs, || chordal_poses(&file.graph));
         file.graph.set_poses(chordal_poses(&file.graph)?)?;
         let (ours, solved) = measure(&file, runs)?;

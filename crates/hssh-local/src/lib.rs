@@ -50,7 +50,7 @@ pub use local_map::{LocalMap, LocalMapOptions};
 pub use map_server::{
     MapError, encode_png, read_floor_plan, read_map, read_map_with_remarks, write_map, write_png,
 };
-pub use matching::{MatchOptions, MotionNoise, Slip, Track, TrackedScan, Tracker, track};
+pub use matching::{LaserTurn, MatchOptions, MotionNoise, Slip, Track, TrackedScan, Tracker, track};
 pub use place::{
     DoorOptions, Gateway, GatewayOptions, GridPlace, LocalStar, Neighborhood, NeighborhoodError, OpenEnd,
     PlaceConnection, PlaceGraph, PlaceGraphError, PlaceKind, PlaceNumber, PlaceOptions, Sighting, doors,

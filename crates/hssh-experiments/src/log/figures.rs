@@ -25,6 +25,7 @@ pub(super) struct Mapping {
     problem: Option<String>,
     /// Seconds of processor time of the survey and of the search.
     seconds: [f64; 2],
+    peak_bytes: u64,
 }
 
 impl Mapping {
@@ -41,18 +42,29 @@ impl Mapping {
             Ok(input) => map(input, &options, &Default::default()).map_err(|error| error.to_string()),
             Err(error) => Err(error.to_string()),
         };
-        let ended = Usage::now()?.user_seconds;
+        let usage = Usage::now()?;
+        let (ended, peak_bytes) = (usage.user_seconds, usage.peak_bytes);
         let (best, problem) = match answer {
             Ok(mapped) => (mapped.answer.maps.into_iter().next(), Some(mapped.answer.verdict.sentence)),
             Err(problem) => (None, Some(problem)),
         };
         let problem = problem.filter(|_| best.is_none());
         let seconds = [surveyed_at - started, ended - surveyed_at];
-        Ok(Mapping { log, input: input.ok(), best, problem, seconds })
+        Ok(Mapping { log, input: input.ok(), best, problem, seconds, peak_bytes })
     }
 
     pub(super) fn log(&self) -> &LaserLog {
         &self.log
+    }
+
+    /// Seconds of processor time of the survey and the search.
+    pub(super) fn seconds(&self) -> f64 {
+        self.seconds.iter().sum()
+    }
+
+    /// The most memory that this process had at one time so far, in MB.
+    pub(super) fn megabytes(&self) -> f64 {
+        self.peak_bytes as f64 / 1e6
     }
 
     fn surveyed(&self) -> Option<&SurveyedLog> {
@@ -110,7 +122,7 @@ impl Figures {
             scans: truth.len(),
             metres: revisits.length(),
             off: [Some(off(&raw)), Some(off(track)), closed.map(off)],
-            close: closed.and_then(|poses| revisits.close_error(poses)),
+            close: closed.and_then(|poses| revisits.close_error(poses)).map(|error| error[0]),
             blur: [closed, Some(&truth[..])].map(|poses| revisits.blur(&mapping.log, poses?)),
             revisit_recall: closed.and_then(|poses| revisits.recall(poses)),
             revisit_precision: closed.and_then(|poses| revisits.precision(poses)),

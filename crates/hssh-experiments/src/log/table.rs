@@ -1,6 +1,6 @@
 //! The tables that are printed of logs.
 
-use super::Verified;
+use super::Compared;
 use super::drift::Drift;
 use super::figures::Figures;
 use crate::table::aligned;
@@ -56,19 +56,34 @@ pub(super) fn of_logs(all: &[Figures]) -> String {
     )
 }
 
-/// The errors against relations that were verified by hand.
-pub(super) fn of_relations(all: &[Verified]) -> String {
-    let header = ["log", "relations", "raw", "track", "closed"].map(str::to_owned).to_vec();
-    let error = |error: Option<[f64; 2]>| {
-        error.map_or_else(|| "–".to_owned(), |[metres, radians]| size(metres, radians))
+/// Trajectories of one log beside one another.
+pub(super) fn of_compared(all: &[Compared]) -> String {
+    let header =
+        ["log", "by", "off, m", "close, m", "blur, m", "relations", "s", "MB"].map(str::to_owned).to_vec();
+    let number = |value: Option<f64>, digits: usize| {
+        value.map_or_else(|| "–".to_owned(), |value| format!("{value:.digits$}"))
     };
-    let row = |log: &Verified| {
-        let mut row = vec![log.name.to_owned(), log.relations.to_string()];
-        row.extend(log.errors.map(error));
-        row
+    let row = |one: &Compared| {
+        let relations =
+            one.relations.map_or_else(|| "–".to_owned(), |[metres, radians]| size(metres, radians));
+        let megabytes = one.cost.map(|cost| cost[1]).filter(|&megabytes| megabytes > 0.0);
+        vec![
+            one.log.to_owned(),
+            one.by.clone(),
+            number(one.off, 2),
+            number(one.close, 3),
+            number(one.blur, 3),
+            relations,
+            number(one.cost.map(|cost| cost[0]), 1),
+            number(megabytes, 0),
+        ]
     };
     let rows: Vec<Vec<String>> = std::iter::once(header).chain(all.iter().map(row)).collect();
-    format!("mean error against relations that were verified by hand\n{}", aligned(&rows))
+    format!(
+        "off and close as above; blur: mean distance of hits at revisits from one another's; relations: mean error against \
+         those that were verified by hand; seconds of processor time, and the most memory of the process so far\n{}",
+        aligned(&rows)
+    )
 }
 
 /// The errors of motion over stretches of the way.
@@ -86,5 +101,5 @@ pub(super) fn of_drift(all: &[Drift]) -> String {
 }
 
 fn size(metres: f64, radians: f64) -> String {
-    format!("{metres:.4} m {:.2}°", radians.to_degrees())
+    format!("{metres:.3} m {:.2}°", radians.to_degrees())
 }

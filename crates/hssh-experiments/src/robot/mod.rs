@@ -57,6 +57,10 @@ fn table(rows: &[(&Course, f64)], outcomes: &[Outcome], seeds: usize) -> String 
         "visits found",
         "survey right",
         "map right",
+        "back, m",
+        "back, °",
+        "walls, m",
+        "within 0.05 m",
         "s",
     ];
     let mut lines = vec![header.map(str::to_owned).to_vec()];
@@ -76,8 +80,21 @@ fn table(rows: &[(&Course, f64)], outcomes: &[Outcome], seeds: usize) -> String 
             format!("{}/{}", sum(|one| one.visits.0), sum(|one| one.visits.1)),
             count(|one| one.is_surveyed),
             count(|one| one.is_right),
+            known(outcomes, 3, |one| one.back.map(|back| back[0])),
+            known(outcomes, 2, |one| one.back.map(|back| back[1].to_degrees())),
+            known(outcomes, 3, |one| one.walls.map(|walls| walls.off)),
+            known(outcomes, 3, |one| one.walls.map(|walls| walls.near)),
             format!("{:.1}", mean(|one| one.seconds)),
         ]);
     }
     format!("every corridor travelled once or more; drives of each row: {seeds}\n{}", aligned(&lines))
+}
+
+/// The mean of what is known.
+fn known(outcomes: &[Outcome], digits: usize, number: fn(&Outcome) -> Option<f64>) -> String {
+    let numbers: Vec<f64> = outcomes.iter().filter_map(number).collect();
+    match numbers.len() {
+        0 => "–".to_owned(),
+        count => format!("{:.digits$}", numbers.iter().sum::<f64>() / count as f64),
+    }
 }

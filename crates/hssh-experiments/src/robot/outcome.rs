@@ -3,12 +3,14 @@
 use std::error::Error;
 use std::time::{Duration, Instant};
 
-use hssh_local::{LaserLog, Survey, SurveyOptions, survey};
+use hssh_local::{LaserLog, Survey, SurveyOptions, building_map, survey};
+use hssh_metrics::Pose;
 use hssh_search::{Limits, Mapper, Order, PosteriorModel};
 use hssh_topology::Axioms;
 use hssh_world::robot::{Drive, Ending, RobotOptions, Strategy, drive, touches};
 
 use super::course::Course;
+use crate::score::{Revisits, Walls, best_fit};
 
 /// Seconds that a search may take.
 const SECONDS: u64 = 60;
@@ -29,6 +31,10 @@ pub(super) struct Outcome {
     pub(super) is_surveyed: bool,
     /// Whether the most probable map takes two visits for one place if and only if they were.
     pub(super) is_right: bool,
+    /// Mean error of the relative poses of scans that are back, metres and radians.
+    pub(super) back: Option<[f64; 2]>,
+    /// The walls of the building's grid against the plan.
+    pub(super) walls: Option<Walls>,
     pub(super) seconds: f64,
 }
 
@@ -43,6 +49,9 @@ impl Outcome {
             found.stops.iter().map(|stop| course.place_at(stop.pose.x, stop.pose.y)).collect();
         truth.dedup(); // a robot that came straight back to a place never left it for the map
         let surveyed = survey(&log, &SurveyOptions::default(), |_, _| ()).ok();
+        let poses: Vec<Pose> =
+            surveyed.iter().flat_map(|found| &found.track.scans).map(|scan| scan.pose).collect();
+        let true_poses: Vec<Pose> = log.scans.iter().map(|scan| scan.corrected).collect();
         let visits = surveyed.as_ref().map_or_else(Vec::new, |surveyed| visited(course, &log, surveyed));
         let is_surveyed = visits == truth;
         let is_right = is_surveyed && surveyed.is_some_and(|surveyed| is_mapped(&surveyed, &truth));
@@ -64,6 +73,14 @@ impl Outcome {
             visits: (visits.len(), truth.len()),
             is_surveyed,
             is_right,
+            back: if poses.len() == true_poses.len() {
+                Revisits::new(&true_poses).close_error(&poses)
+            } else {
+                None
+            },
+            walls: building_map(&log, &poses)
+                .ok()
+                .and_then(|grid| Walls::of(&grid, &found.grid, best_fit(&poses, &true_poses))),
             seconds: started.elapsed().as_secs_f64(),
         })
     }

@@ -4,7 +4,7 @@ use hssh_metrics::Pose;
 use nalgebra::Vector2;
 
 /// The frame in which `poses` lie best on `others`: least squares of their positions.
-fn best_fit(poses: &[Pose], others: &[Pose]) -> Pose {
+pub(crate) fn best_fit(poses: &[Pose], others: &[Pose]) -> Pose {
     let mean = |poses: &[Pose]| {
         poses.iter().map(|pose| pose.translation()).sum::<Vector2<f64>>() / poses.len().max(1) as f64
     };

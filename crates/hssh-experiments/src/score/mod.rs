@@ -5,11 +5,13 @@ mod fit;
 mod places;
 mod relations;
 mod revisits;
+mod walls;
 
-pub(crate) use fit::root_mean_square;
+pub(crate) use fit::{best_fit, root_mean_square};
 pub(crate) use places::SamePlace;
 pub(crate) use relations::Relations;
 pub(crate) use revisits::Revisits;
+pub(crate) use walls::Walls;
 
 use hssh::answer::AnsweredMap;
 

@@ -60,11 +60,6 @@ impl Relations {
         Ok(Relations { relations, odometry, scans })
     }
 
-    /// How many there are.
-    pub(crate) fn len(&self) -> usize {
-        self.relations.len()
-    }
-
     /// The mean error of the relative poses that a trajectory, one pose for each scan, has for them: metres and radians.
     pub(crate) fn errors(&self, poses: &[Pose]) -> [f64; 2] {
         let (mut metres, mut radians) = (0.0, 0.0);

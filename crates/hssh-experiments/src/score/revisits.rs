@@ -38,14 +38,21 @@ impl<'a> Revisits<'a> {
         self.along.last().copied().unwrap_or(0.0)
     }
 
-    /// The mean error of the relative position of scans that truly are close to one another; none if there are no such
-    /// scans.
-    pub(crate) fn close_error(&self, poses: &[Pose]) -> Option<f64> {
+    /// The mean error of the relative pose of scans that truly are close to one another, metres and radians; none if there are
+    /// no such scans.
+    pub(crate) fn close_error(&self, poses: &[Pose]) -> Option<[f64; 2]> {
         let step = (self.close.len() / MOST_PAIRS).max(1);
-        mean(self.close.iter().step_by(step).map(|&(earlier, later)| {
-            let truth = self.truth[earlier].between(self.truth[later]);
-            truth.between(poses[earlier].between(poses[later])).translation().norm()
-        }))
+        let errors: Vec<Pose> = self
+            .close
+            .iter()
+            .step_by(step)
+            .map(|&(earlier, later)| {
+                let truth = self.truth[earlier].between(self.truth[later]);
+                truth.between(poses[earlier].between(poses[later]))
+            })
+            .collect();
+        let metres = mean(errors.iter().map(|error| error.translation().norm()))?;
+        Some([metres, mean(errors.iter().map(|error| error.theta.abs()))?])
     }
 
     /// How far hits at revisits lie from one another's, placed by a trajectory: metres. None if there are no such scans.
@@ -127,7 +134,7 @@ mod tests {
         assert!((revisits.length() - 40.0).abs() < 1e-9);
         assert_eq!(revisits.recall(&truth), Some(1.0));
         assert_eq!(revisits.precision(&truth), Some(1.0));
-        assert!(revisits.close_error(&truth).unwrap() < 1e-9);
+        assert!(revisits.close_error(&truth).unwrap()[0] < 1e-9);
     }
 
     #[test]
@@ -135,7 +142,7 @@ mod tests {
         let truth = there_and_back(0.0);
         let (near, far) = (there_and_back(0.5), there_and_back(4.0));
         let revisits = Revisits::new(&truth);
-        assert!((revisits.close_error(&near).unwrap() - 0.5).abs() < 1e-9);
+        assert!((revisits.close_error(&near).unwrap()[0] - 0.5).abs() < 1e-9);
         assert_eq!(revisits.precision(&near), Some(1.0));
         assert_eq!(revisits.recall(&far), Some(0.0));
         assert_eq!(revisits.precision(&far), None, "it says nothing");

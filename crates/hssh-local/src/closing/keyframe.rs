@@ -6,6 +6,8 @@ use super::options::ClosingOptions;
 use crate::carmen::LaserLog;
 use crate::matching::{SurfacePoint, Track, surfaces};
 
+/// Metres: what a beam hits nearer than this is kept. Far walls hold the heading, so that this is more than a submap shows.
+const REACH: f64 = 20.0;
 /// Metres between the surface points that are kept of a keyframe.
 const SPACING: f64 = 0.12;
 
@@ -34,7 +36,7 @@ pub(super) fn keyframes(log: &LaserLog, track: &Track, options: &ClosingOptions)
                 scan,
                 travelled: tracked.travelled,
                 tracked: tracked.pose,
-                surfaces: surfaces(&log.scans[scan].scan, options.reach, SPACING),
+                surfaces: surfaces(&log.scans[scan].scan, REACH, SPACING),
             });
         }
     }

@@ -7,9 +7,11 @@ mod correlate;
 mod motion;
 mod options;
 mod track;
+mod turned;
 
 pub(crate) use align::align;
 pub(crate) use cloud::{Cloud, SurfacePoint, surfaces};
 pub use motion::{MotionNoise, Slip};
 pub use options::MatchOptions;
 pub use track::{Track, TrackedScan, Tracker, track};
+pub use turned::LaserTurn;

@@ -36,7 +36,7 @@ impl Default for MatchOptions {
             reach: 20.0,
             spacing: 0.08,
             hit_noise: 0.04,
-            hits_per_observation: 5.0,
+            hits_per_observation: 2.0,
             memory: 8.0,
             keyframe_distance: 0.4,
             keyframe_turn: 0.3,

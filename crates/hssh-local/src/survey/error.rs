@@ -5,6 +5,7 @@ use hssh_metrics::UncertaintyError;
 
 use crate::closing::ClosingError;
 use crate::grid::LatticeError;
+use crate::matching::LaserTurn;
 
 /// Something that a survey had to decide with little reason.
 #[derive(Clone, PartialEq, Debug, thiserror::Error)]
@@ -45,6 +46,12 @@ pub enum SurveyWarning {
     /// Odometry that stands still.
     #[error("the log has no odometry: it stands still while the scans move, and scans alone lose their way")]
     NoOdometry,
+    /// A laser that is not where it was taken to be.
+    #[error(
+        "the laser seems to be turned by {:.1}° to the left (± {:.1}°) against the odometry: if it is, say so with --laser-pose, \
+         for a track goes astray by that", .0.angle.to_degrees(), .0.sigma.to_degrees()
+    )]
+    LaserTurned(LaserTurn),
     /// Somebody stopped it.
     #[error("the survey was interrupted: it is one of the first {scans} scans, with the loops found so far")]
     Interrupted {

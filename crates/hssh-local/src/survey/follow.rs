@@ -12,7 +12,7 @@ use crate::carmen::LaserLog;
 use crate::closing::close_loops;
 use crate::global_map::global_map;
 use crate::local_map::LocalMapOptions;
-use crate::matching::{TrackedScan, track};
+use crate::matching::{LaserTurn, TrackedScan, track};
 use crate::progress::Reply;
 use crate::route::route;
 
@@ -83,6 +83,8 @@ pub fn survey<R: Into<Reply>>(
     let lost = doubts(log, &track);
     evidence.lost = lost.len();
     warnings.extend(lost);
+    let turned = LaserTurn::of(log, &track).filter(LaserTurn::is_clear);
+    warnings.extend(turned.map(SurveyWarning::LaserTurned));
     if stopped {
         warnings.push(SurveyWarning::Interrupted { scans: log.scans.len() });
     }

@@ -2,6 +2,7 @@
 
 use std::fmt;
 
+use hssh_local::LaserTurn;
 use hssh_metrics::Pose;
 use serde::{Deserialize, Serialize};
 
@@ -35,6 +36,10 @@ pub struct TrackAccount {
     /// How well the track knows that: standard deviations of x, y and θ; absent if it is hardly known at all.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub end_sigma: Option<[f64; 3]>,
+    /// By how much the laser seems to be turned to the left against the odometry, and the standard deviation of that: radians;
+    /// absent if the robot hardly went straight ahead.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub laser_turn: Option<[f64; 2]>,
     /// The scans that can be used.
     pub poses: Vec<TrackedPose>,
     /// What was left out, or where the robot is lost.
@@ -88,6 +93,7 @@ impl TrackAccount {
                 let variances = whole.covariance.matrix().diagonal();
                 [0, 1, 2].map(|axis| sigma(variances[axis]))
             }),
+            laser_turn: LaserTurn::of(log, &tracked.track).map(|turn| [turn.angle, turn.sigma]),
             poses: scans.iter().enumerate().map(pose).collect(),
             warnings,
         }
@@ -113,6 +119,12 @@ impl fmt::Display for TrackAccount {
                 f,
                 "  {name:<13} ends at {:.2}, {:.2} m, {degrees:.1}° from where it began",
                 end.x, end.y
+            )?;
+        }
+        if let Some([angle, sigma]) = self.laser_turn.map(|radians| radians.map(f64::to_degrees)) {
+            writeln!(
+                f,
+                "  the laser is turned by {angle:.2}° ± {sigma:.2}° to the left against the odometry"
             )?;
         }
         match self.end_sigma {

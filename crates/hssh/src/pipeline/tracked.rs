@@ -1,8 +1,8 @@
 //! A laser log whose odometry is corrected from scan to scan, without places and without loops.
 
 use hssh_local::{
-    LaserLog, LatticeError, MatchOptions, OccupancyGrid, Reply, SurveyWarning, Track, building_map, doubts,
-    track,
+    LaserLog, LaserTurn, LatticeError, MatchOptions, OccupancyGrid, Reply, SurveyWarning, Track,
+    building_map, doubts, track,
 };
 use hssh_metrics::{Edge, GraphError, Pose, PoseGraph, PoseId};
 
@@ -33,6 +33,8 @@ impl TrackedLog {
         let is_whole = scans == log.scans.len();
         let log = if is_whole { log } else { log.beginning(scans) };
         let mut doubts = doubts(&log, &track);
+        let turned = LaserTurn::of(&log, &track).filter(LaserTurn::is_clear);
+        doubts.extend(turned.map(SurveyWarning::LaserTurned));
         if !is_whole {
             doubts.push(SurveyWarning::Interrupted { scans });
         }
