@@ -103,3 +103,38 @@ fn drawn(
     }
     Ok(map.classify())
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::grid::Occupancy;
+
+    /// Somebody stands 2 m ahead in the first of some scans, and a wall is 4 m ahead in all of them.
+    #[test]
+    fn people_are_left_out_and_walls_are_not() {
+        let scan = |number: usize| {
+            let range = |beam: usize| {
+                let is_person = number == 0 && (88..=92).contains(&beam);
+                if is_person {
+                    2.0
+                } else {
+                    4.0 / (f64::from(beam as u32) - 90.0).to_radians().cos().max(0.2)
+                }
+            };
+            let ranges: Vec<String> = (0..=180).map(|beam| range(beam).to_string()).collect();
+            let y = 0.25 * number as f64;
+            format!("FLASER 181 {} 0 {y} 0 0 {y} 0 {number} host {number}\n", ranges.join(" "))
+        };
+        let text: String = (0..3).map(scan).collect();
+        let log = LaserLog::read(text.as_bytes()).unwrap();
+        let poses: Vec<Pose> = log.scans.iter().map(|scan| scan.odometry).collect();
+        let at = |grid: &OccupancyGrid, x: f64, y: f64| grid.get(grid.lattice().cell_at([x, y]).unwrap());
+        let grid = building_map(&log, &poses).unwrap();
+        assert_eq!(grid.lattice().resolution(), 0.05);
+        assert_eq!(at(&grid, 2.0, 0.0), Occupancy::Free);
+        assert_eq!(at(&grid, 4.02, 0.5), Occupancy::Occupied);
+        assert_eq!(at(&grid, 4.6, 0.5), Occupancy::Unknown);
+        let alone = building_map(&log.beginning(1), &poses[..1]).unwrap();
+        assert_eq!(at(&alone, 2.0, 0.0), Occupancy::Occupied);
+    }
+}

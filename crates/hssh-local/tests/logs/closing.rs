@@ -4,7 +4,7 @@ use hssh_local::{
     ClosedTrack, ClosingOptions, Closure, LaserLog, MatchOptions, MotionNoise, Track, TrackedScan,
     close_loops,
 };
-use hssh_metrics::{Pose, wrap_angle};
+use hssh_metrics::{Options, Pose, solve, wrap_angle};
 
 use crate::simulator::{around, drifting, drive, log};
 
@@ -129,9 +129,10 @@ fn twice() -> Vec<[f64; 2]> {
 #[test]
 fn a_track_that_drifts_by_metres_is_closed() {
     let closed = Closed::new(&ring(), &twice(), 0.002, believed);
-    let (before, after) = (closed.error(&closed.tracked()), closed.error(&closed.closed.poses()));
+    let (before, after) = (closed.error(&closed.tracked()), closed.error(closed.closed.poses()));
     assert!(before > 2.0 && after < 0.2, "{before} m, closed {after} m");
     assert!(closed.closed.closures.len() > 20, "{:?}", closed.closed.closures);
+    all_scans_are_in_one_graph(&closed);
     for closure in &closed.closed.closures {
         let off = closed.off(closure);
         assert!(closed.sigmas(closure) < 5.0 && off.theta.abs() < 0.03, "{closure:?} is off by {off:?}");
@@ -146,7 +147,7 @@ fn a_track_that_drifts_by_metres_is_closed() {
 #[test]
 fn what_scan_matching_leaves_is_closed() {
     let closed = Closed::new(&ring(), &twice(), 0.02, matched);
-    let (before, after) = (closed.error(&closed.tracked()), closed.error(&closed.closed.poses()));
+    let (before, after) = (closed.error(&closed.tracked()), closed.error(closed.closed.poses()));
     assert!(before > 0.3 && after < 0.1, "{before} m, closed {after} m");
     assert!(closed.closed.closures.len() > 20, "{:?}", closed.closed.closures);
     for closure in &closed.closed.closures {
@@ -155,13 +156,24 @@ fn what_scan_matching_leaves_is_closed() {
     }
 }
 
+/// A pose for each scan, an edge for each step, more than the closures beside them, and nothing left to be gained.
+fn all_scans_are_in_one_graph(closed: &Closed) {
+    let ClosedTrack { graph, closures } = &closed.closed;
+    let scans = closed.track.scans.len();
+    let steps = graph.edges().iter().filter(|edge| edge.to.0 == edge.from.0 + 1).count();
+    assert_eq!((graph.poses().len(), steps), (scans, scans - 1));
+    assert!(graph.edges().len() - steps > closures.len());
+    let solved = solve(graph, &Options::default()).unwrap();
+    assert!((solved.chi2 - graph.chi2()).abs() < 1e-6 * graph.chi2(), "{} {}", solved.chi2, graph.chi2());
+}
+
 /// Niches show only the one or the other side to those who pass, so that along a corridor little tells how far one
 /// is; across it everything does.
 #[test]
 fn the_opposite_direction_closes_too() {
     let again = [[24.0, 0.0], [0.0, 0.0], [0.0, 24.0], [24.0, 24.0], [24.0, 2.0]];
     let closed = Closed::new(&ring(), &[&ONCE[..], &again].concat(), 0.01, matched);
-    let (before, after) = (closed.error(&closed.tracked()), closed.error(&closed.closed.poses()));
+    let (before, after) = (closed.error(&closed.tracked()), closed.error(closed.closed.poses()));
     assert!(before > 0.2 && after < 0.1, "{before} m, closed {after} m");
     let mut opposite = 0;
     for closure in &closed.closed.closures {
@@ -193,7 +205,7 @@ fn corridors_that_look_alike_stay_apart() {
     for track in [believed, matched] {
         let closed = Closed::new(&spaces, &way, 0.001, track);
         assert_eq!(wrong(&closed), []);
-        let after = closed.error(&closed.closed.poses());
+        let after = closed.error(closed.closed.poses());
         assert!(after < 0.5, "{after} m");
     }
 }
@@ -231,7 +243,7 @@ fn corridors_that_look_alike_stay_apart_after_a_long_way() {
         let way = [[0.0, 0.0], [0.0, 24.0], [far, 24.0], [far, 0.0], [apart, 0.0], [apart, 22.0]];
         for track in [believed, matched] {
             let closed = Closed::new(&spaces, &way, 0.0003, track);
-            let (before, after) = (closed.error(&closed.tracked()), closed.error(&closed.closed.poses()));
+            let (before, after) = (closed.error(&closed.tracked()), closed.error(closed.closed.poses()));
             eprintln!(
                 "{apart} m apart: {} wrong closures; {before} m off, closed {after} m",
                 wrong(&closed).len()

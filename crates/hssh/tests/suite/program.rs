@@ -186,6 +186,7 @@ fn what_is_printed_is_read_back() {
     let log = scratch("printed").join("ring.log").to_string_lossy().into_owned();
     read_back::<hssh::account::DriveAccount>("hssh-drive", &["simulate", "--floor", "ring", "-o", &log]);
     read_back::<hssh::account::SurveyAccount>("hssh-survey", &["explore", &log]);
+    read_back::<hssh::account::TrackAccount>("hssh-track", &["track", &log]);
 }
 
 #[test]

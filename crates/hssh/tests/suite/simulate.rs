@@ -20,12 +20,33 @@ fn from_a_floor_to_its_map() {
     assert_eq!(explored["visits"].as_array().map(Vec::len), Some(5));
     assert_eq!(explored["travels"].as_array().map(Vec::len), Some(4));
     assert_eq!(explored["visits"][0]["exit"].is_string(), explored["visits"][4]["entry"].is_string());
+    the_way_is_written(&folder, &log, explored["scans"].as_u64().unwrap());
     scans_are_counted_among_all(&log, &explored);
     let mapped = hssh(&["map", &exploration, "--json"]);
     let mapped: serde_json::Value = serde_json::from_slice(&mapped.stdout).expect("the report is JSON");
     let best = &mapped["maps"][0];
     assert!(best["measure"]["places"] == 4 && best["closed"] == true, "{mapped}");
     let _ = std::fs::remove_dir_all(folder);
+}
+
+/// All scans are in the trajectory and in the graph, with loops if loops are closed, and the graph is read back as solved.
+fn the_way_is_written(folder: &std::path::Path, log: &str, scans: u64) {
+    let file = |name: &str| folder.join(name).display().to_string();
+    for command in ["track", "map"] {
+        let [way, graph, grid] = ["way.tum", "way.g2o", "way.yaml"].map(file);
+        let done = hssh(&[command, log, "--trajectory", &way, "--g2o", &graph, "--grid", &grid]);
+        assert!(done.status.success(), "{}", String::from_utf8_lossy(&done.stderr));
+        let lines = std::fs::read_to_string(&way).expect("the trajectory was written").lines().count();
+        assert_eq!(lines as u64, scans);
+        let found = hssh(&["graph", &graph, "--json"]);
+        let found: serde_json::Value = serde_json::from_slice(&found.stdout).expect("the account is JSON");
+        assert_eq!(found["poses"].as_array().map(Vec::len), Some(scans as usize));
+        assert_eq!(found["closures"].as_u64() > Some(0), command == "map", "{command}");
+        let [before, after] = ["file_chi2", "chi2"].map(|chi2| found[chi2].as_f64().unwrap());
+        assert!(before - after < 1e-4 * (1.0 + after), "{command}: {before} {after}");
+        let places = hssh(&["stars", &grid]);
+        assert!(places.status.success(), "{}", String::from_utf8_lossy(&places.stderr));
+    }
 }
 
 /// A scan that cannot be used moves the numbers of those after it, and nothing else.
