@@ -68,7 +68,9 @@ pub(crate) fn run(flags: &flags::WrongClosures) -> Result<(), Box<dyn Error>> {
     for (seed, (name, graph)) in (0..).zip(&all) {
         for part in PARTS {
             let row = row(name, graph, part, seed, flags.python.as_deref());
-            rows.push(row.map_err(|error| format!("{name}, {part}: {error}"))?);
+            let row = row.map_err(|error| format!("{name}, {part}: {error}"))?;
+            eprintln!("{}", row.join("  "));
+            rows.push(row);
         }
     }
     println!(
