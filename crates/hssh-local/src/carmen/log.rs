@@ -76,6 +76,7 @@ impl LaserLog {
         raw.move_to_laser(known, &mut warnings);
         raw.bridge_jumps(&mut warnings);
         let max_range = raw.limit(&mut warnings)?;
+        raw.check_facing(view, max_range, &mut warnings);
         warnings.sort_by_key(LogWarning::line);
         let came_back = |range: f64| if range > 0.0 && range < max_range { range } else { f64::INFINITY };
         let logged = |scan: RawScan| LoggedScan {

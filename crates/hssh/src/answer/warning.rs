@@ -20,7 +20,8 @@ pub enum WarningKind {
     RangeLimit,
     /// The laser is not at the robot's axis.
     LaserPose,
-    /// The scans do not turn as the odometry does: the laser looks wider or less wide than was taken for granted.
+    /// The scans do not move as the odometry does: the laser looks wider, elsewhere or the other way round than was
+    /// taken for granted.
     LaserView,
     /// Odometry that is possible and hardly meant, such as degrees for radians.
     Questionable,

@@ -181,7 +181,9 @@ impl SurveyedLog {
                 LogWarning::Jump { line, .. } => (WarningKind::OdometryJump, Some(*line)),
                 LogWarning::RangeLimit { .. } => (WarningKind::RangeLimit, None),
                 LogWarning::LimitDoubted { .. } => (WarningKind::RangeLimit, None),
-                LogWarning::View { .. } => (WarningKind::LaserView, None),
+                LogWarning::View { .. } | LogWarning::Facing { .. } | LogWarning::Mirrored => {
+                    (WarningKind::LaserView, None)
+                }
                 LogWarning::LaserPose { .. } => (WarningKind::LaserPose, None),
             };
             match line {
