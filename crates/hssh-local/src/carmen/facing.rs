@@ -20,8 +20,9 @@ const MOST_PAIRS: usize = 60;
 const LEAST_PAIRS: usize = 8;
 /// Points that are farther apart than so many metres count as so far apart.
 const MOST_APART: f64 = 0.3;
-/// A pair tells if the best way to face leaves no more than this part of what the worst does.
-const CLEAR: f64 = 0.7;
+/// A pair tells if the points lie nearer with the best way to face than with the next by so many metres in sum: the
+/// walls along a corridor fit whichever way, what stands across it does not.
+const CLEAR: f64 = 1.5;
 /// Ways to face are doubted if so many of the pairs that tell are for another one.
 const DOUBTFUL: f64 = 0.8;
 /// Where the laser may look, as seen from the robot: ahead first.
@@ -82,5 +83,5 @@ fn facing(first: &[[f64; 2]], second: &[[f64; 2]], step: Pose) -> Option<usize> 
     // The next best has to be clearly worse, too: along a bare corridor ahead and back look alike.
     let next =
         (0..off.len()).filter(|&facing| facing != best).map(|facing| off[facing]).fold(worst, f64::min);
-    (off[best] < CLEAR * next).then_some(best)
+    (next - off[best] > CLEAR).then_some(best)
 }
