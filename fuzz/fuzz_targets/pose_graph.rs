@@ -13,12 +13,6 @@ fuzz_target!(|bytes: &[u8]| {
             assert!(solution.chi2.is_finite());
         }
         let again = read_pose_graph(file.to_g2o().as_bytes()).expect("what is written can be read");
-        assert_eq!(again.graph.edges().len(), file.graph.edges().len());
-        for (one, other) in again.graph.edges().iter().zip(file.graph.edges()) {
-            assert_eq!((one.from, one.to, one.relative_pose), (other.from, other.to, other.relative_pose));
-            // Where a direction has no information, the matrix is made of its other eigenvectors, up to rounding.
-            let (one, other) = (one.information.matrix(), other.information.matrix());
-            assert!((one - other).amax() <= 1e-9 * other.amax(), "{one} {other}");
-        }
+        assert_eq!(again.graph.edges(), file.graph.edges());
     }
 });
