@@ -1,7 +1,10 @@
-//! Whether the scans move as the odometry does: where the laser looks backward or sideways, or its beams come in the other
-//! order, they do not.
+//! Whether the scans move as the odometry does: where the laser looks backward or sideways, they do not.
+//!
+//! Along a straight step the second scan lies on the first one if it is moved by the step, seen from the laser. If the laser
+//! is turned on the robot, it lies there only if the step is turned as well. All steps of a log are asked together: along a
+//! bare corridor ahead and back look alike, and the few that pass a crossing or near an end decide.
 
-use std::f64::consts::{FRAC_PI_2, PI};
+use std::f64::consts::{PI, TAU};
 
 use hssh_metrics::Pose;
 
@@ -9,79 +12,148 @@ use super::error::LogWarning;
 use super::raw::{RawLog, RawScan};
 
 /// Scans are compared between which the robot went that far, in metres…
-const STEPS: std::ops::Range<f64> = 0.3..1.5;
+const STEPS: std::ops::Range<f64> = 0.5..1.5;
 /// …and hardly turned, in radians.
 const STRAIGHT: f64 = 0.06;
 /// So many scans behind one are tried for such a step.
 const WITHIN: usize = 12;
-/// More pairs than this say no more.
-const MOST_PAIRS: usize = 60;
-/// With fewer pairs that tell, nothing is said.
-const LEAST_PAIRS: usize = 8;
+/// More steps than this say no more.
+const MOST_STEPS: usize = 120;
+/// With fewer steps, nothing is said.
+const LEAST_STEPS: usize = 8;
 /// Points that are farther apart than so many metres count as so far apart.
 const MOST_APART: f64 = 0.3;
-/// A pair tells if the points lie nearer with the best way to face than with the next by so many metres in sum: the
-/// walls along a corridor fit whichever way, what stands across it does not.
-const CLEAR: f64 = 1.5;
-/// Ways to face are doubted if so many of the pairs that tell are for another one.
-const DOUBTFUL: f64 = 0.8;
-/// Where the laser may look, as seen from the robot: ahead first.
-const FACINGS: [f64; 4] = [0.0, PI, FRAC_PI_2, -FRAC_PI_2];
+/// No more points of a scan are compared.
+const MOST_POINTS: usize = 181;
+/// Ways to face that are tried, evenly around.
+const FACINGS: usize = 36;
+const AHEAD: usize = 0;
+const BACK: usize = FACINGS / 2;
+/// A laser that looks elsewhere by less than this is not doubted, in radians: so much wheels slip, or somebody mounts it.
+const NEGLIGIBLE: f64 = 0.2;
+/// One way to face fits better than another if it does by so many standard errors of the mean over all steps…
+const CLEAR: f64 = 5.0;
+/// …and another than straight ahead has to leave no more than this part of what straight ahead leaves.
+const BETTER: f64 = 0.9;
 
 impl RawLog {
-    /// Warns if scans move as if the laser looked elsewhere than ahead, with that view and place of it on the robot.
-    pub(super) fn check_facing(&self, view: f64, max_range: f64, warnings: &mut Vec<LogWarning>) {
-        let step = |one: &RawScan, other: &RawScan| {
-            let step = self.trajectory[one.moment].pose.between(self.trajectory[other.moment].pose);
-            let is_step = STEPS.contains(&step.translation().norm()) && step.theta.abs() < STRAIGHT;
-            is_step.then_some(step)
-        };
-        let pairs = self.scans.iter().enumerate().filter_map(|(index, one)| {
-            let others = self.scans[index + 1..].iter().take(WITHIN);
-            others.filter_map(|other| Some((one, other, step(one, other)?))).next_back()
-        });
-        let pairs: Vec<_> = pairs.collect();
-        let chosen = pairs.iter().step_by(pairs.len().div_ceil(MOST_PAIRS).max(1));
-        let points = |scan: &RawScan| points(&scan.ranges, view, max_range);
-        let told = chosen.filter_map(|(one, other, step)| facing(&points(one), &points(other), *step));
-        let mut votes = [0_usize; FACINGS.len()];
-        told.for_each(|facing| votes[facing] += 1);
-        let all: usize = votes.iter().sum();
-        let most = (0..FACINGS.len()).max_by_key(|&facing| votes[facing]).unwrap_or_default();
-        if all >= LEAST_PAIRS && most != 0 && votes[most] as f64 >= DOUBTFUL * all as f64 {
-            warnings.push(LogWarning::Facing { seen: FACINGS[most] });
+    /// Warns if scans move as if the laser looked elsewhere than ahead, with that view and place of it on the robot. Returns
+    /// whether there are straight steps, and ahead and back look alike along all of them.
+    pub(super) fn check_facing(&self, view: f64, max_range: f64, warnings: &mut Vec<LogWarning>) -> bool {
+        let steps = self.straight_steps();
+        let chosen = steps.iter().step_by(steps.len().div_ceil(MOST_STEPS).max(1));
+        let apart: Vec<[f64; FACINGS]> = chosen
+            .filter_map(|&(one, other, step)| {
+                let [one, other] = [one, other].map(|scan| Sight::new(&scan.ranges, view, max_range));
+                one.apart_by_facing(&other, step)
+            })
+            .collect();
+        let facing = if apart.len() < LEAST_STEPS { Facing::Ahead } else { facing(&apart) };
+        if let Facing::Elsewhere(seen) = facing {
+            warnings.push(LogWarning::Facing { seen });
         }
+        matches!(facing, Facing::Unknown)
+    }
+
+    /// Scans between which the robot went straight on, and the step between them, none of which overlap.
+    fn straight_steps(&self) -> Vec<(&RawScan, &RawScan, Pose)> {
+        let mut steps = Vec::new();
+        let mut index = 0;
+        while let Some(one) = self.scans.get(index) {
+            let others = self.scans.iter().enumerate().skip(index + 1).take(WITHIN);
+            let mut straight = others.filter_map(|(behind, other)| {
+                let step = self.trajectory[one.moment].pose.between(self.trajectory[other.moment].pose);
+                let is_step = STEPS.contains(&step.translation().norm()) && step.theta.abs() < STRAIGHT;
+                is_step.then_some((behind, other, step))
+            });
+            index = match straight.next() {
+                Some((behind, other, step)) => {
+                    steps.push((one, other, step));
+                    behind
+                }
+                None => index + 1,
+            };
+        }
+        steps
     }
 }
 
-/// What a laser of that view saw, in its own frame.
-fn points(ranges: &[f64], view: f64, max_range: f64) -> Vec<[f64; 2]> {
-    let steps = (ranges.len() - ranges.len() % 2).max(1) as f64;
-    let beams = ranges.iter().enumerate().filter(|(_, range)| **range > 0.0 && **range < max_range);
-    let point = |(beam, range): (usize, &f64)| {
-        let (s, c) = (view * (beam as f64 / steps - 0.5)).sin_cos();
-        [range * c, range * s]
-    };
-    beams.map(point).collect()
+/// What a laser of some view saw, in its own frame.
+struct Sight {
+    points: Vec<[f64; 2]>,
+    half_view: f64,
 }
 
-/// Which way the laser looks, if these two scans tell, between which the robot made that step.
-fn facing(first: &[[f64; 2]], second: &[[f64; 2]], step: Pose) -> Option<usize> {
-    let off = |facing: &f64| {
-        let turned = Pose::new(0.0, 0.0, -facing).compose(Pose::new(step.x, step.y, 0.0));
-        let step = Pose::new(turned.x, turned.y, step.theta);
-        let moved = second.iter().step_by(2).map(|&[x, y]| step.compose(Pose::new(x, y, 0.0)));
-        let apart = |at: Pose| {
-            let squared = first.iter().map(|[x, y]| (x - at.x).powi(2) + (y - at.y).powi(2));
-            squared.fold(MOST_APART * MOST_APART, f64::min).sqrt()
+impl Sight {
+    fn new(ranges: &[f64], view: f64, max_range: f64) -> Self {
+        let steps = (ranges.len() - ranges.len() % 2).max(1) as f64;
+        let beams = ranges.iter().enumerate().step_by(ranges.len().div_ceil(MOST_POINTS).max(1));
+        let came_back = beams.filter(|(_, range)| **range > 0.0 && **range < max_range);
+        let point = |(beam, range): (usize, &f64)| {
+            let (s, c) = (view * (beam as f64 / steps - 0.5)).sin_cos();
+            [range * c, range * s]
         };
-        moved.map(apart).sum::<f64>()
-    };
-    let off = FACINGS.map(|facing| off(&facing));
-    let best = (0..off.len()).min_by(|&a, &b| off[a].total_cmp(&off[b]))?;
-    let worst = off.iter().copied().fold(0.0, f64::max);
-    // The next best has to be clearly worse, too: along a bare corridor ahead and back look alike.
-    let next =
-        (0..off.len()).filter(|&facing| facing != best).map(|facing| off[facing]).fold(worst, f64::min);
-    (next - off[best] > CLEAR).then_some(best)
+        Sight { points: came_back.map(point).collect(), half_view: 0.5 * view }
+    }
+
+    /// How far the points of these two are apart on average if the laser made that step, for each way to face.
+    fn apart_by_facing(&self, other: &Sight, step: Pose) -> Option<[f64; FACINGS]> {
+        let mut apart = [0.0; FACINGS];
+        for (facing, apart) in apart.iter_mut().enumerate() {
+            let turned = Pose::new(0.0, 0.0, -angle(facing)).compose(Pose::new(step.x, step.y, 0.0));
+            let step = Pose::new(turned.x, turned.y, step.theta);
+            let (there, back) = (self.apart(other, step)?, other.apart(self, step.inverse())?);
+            *apart = 0.5 * (there + back);
+        }
+        Some(apart)
+    }
+
+    /// How far the points of another sight are from those of this one on average, without those that this one could not
+    /// see: a laser that looks ahead sees the walls beside it for the last time, and would always fit ahead.
+    fn apart(&self, other: &Sight, step: Pose) -> Option<f64> {
+        let moved = other.points.iter().map(|&[x, y]| step.compose(Pose::new(x, y, 0.0)));
+        let seen = moved.filter(|at| at.y.atan2(at.x).abs() <= self.half_view);
+        let nearest = seen.map(|at| {
+            let squared = self.points.iter().map(|[x, y]| (x - at.x).powi(2) + (y - at.y).powi(2));
+            squared.fold(MOST_APART * MOST_APART, f64::min).sqrt()
+        });
+        let (count, sum) = nearest.fold((0_usize, 0.0), |(count, sum), apart| (count + 1, sum + apart));
+        (count > 0).then(|| sum / count as f64)
+    }
+}
+
+/// Radians from straight ahead, counterclockwise.
+fn angle(facing: usize) -> f64 {
+    let angle = TAU * facing as f64 / FACINGS as f64;
+    if angle > PI { angle - TAU } else { angle }
+}
+
+/// Which way the laser looks, as the steps tell.
+enum Facing {
+    Ahead,
+    /// Radians from straight ahead, counterclockwise.
+    Elsewhere(f64),
+    /// Ahead and back look alike.
+    Unknown,
+}
+
+fn facing(apart: &[[f64; FACINGS]]) -> Facing {
+    let mean = |facing: usize| apart.iter().map(|step| step[facing]).sum::<f64>() / apart.len() as f64;
+    let best = (0..FACINGS).min_by(|&a, &b| mean(a).total_cmp(&mean(b))).unwrap_or_default();
+    if is_nearer(apart, best, AHEAD) && mean(best) < BETTER * mean(AHEAD) {
+        if angle(best).abs() > NEGLIGIBLE { Facing::Elsewhere(angle(best)) } else { Facing::Ahead }
+    } else if is_nearer(apart, AHEAD, BACK) {
+        Facing::Ahead
+    } else {
+        Facing::Unknown
+    }
+}
+
+/// Whether the points lie nearer with one way to face than with another, step by step and beyond chance.
+fn is_nearer(apart: &[[f64; FACINGS]], one: usize, other: usize) -> bool {
+    let count = apart.len() as f64;
+    let nearer = || apart.iter().map(|step| step[other] - step[one]);
+    let average = nearer().sum::<f64>() / count;
+    let squares: f64 = nearer().map(|nearer| (nearer - average).powi(2)).sum();
+    average > CLEAR * (squares / (count - 1.0) / count).sqrt()
 }

@@ -306,13 +306,32 @@ fn a_laser_that_looks_elsewhere_is_doubted() {
         })
     };
     assert_eq!(facing(&read(&driving(0.0, false)).unwrap()), None);
-    for turned in [PI, FRAC_PI_2, -FRAC_PI_2] {
+    for turned in [PI, FRAC_PI_2, -FRAC_PI_2, 0.7, -2.4] {
         let log = driving(turned, false);
-        assert_eq!(facing(&read(&log).unwrap()), Some(turned));
+        let seen = facing(&read(&log).unwrap()).unwrap_or_default();
+        assert!(Pose::new(0.0, 0.0, seen - turned).theta.abs() < 0.1, "{seen} is not {turned}");
         let known = LaserMount { view: None, pose: Some(Pose::new(0.0, 0.0, turned)) };
         assert_eq!(facing(&LaserLog::read_with(log.as_bytes(), &known).unwrap()), None, "{turned}");
     }
     assert_eq!(facing(&read(&driving(0.0, true)).unwrap()), None, "straight ahead, a mirror changes nothing");
+    // A laser that was mounted by eye is not doubted.
+    assert_eq!(facing(&read(&driving(0.1, false)).unwrap()), None);
+}
+
+/// Between two bare walls, nothing tells ahead from back.
+#[test]
+fn a_bare_corridor_does_not_tell_where_the_laser_looks() {
+    let range = |bearing: f64| (1.2 / bearing.sin().abs()).min(8.0);
+    let scan: Vec<String> =
+        (0..181_u32).map(|beam| format!("{:.3}", range(f64::from(beam).to_radians() - FRAC_PI_2))).collect();
+    let mut log = String::from("PARAM robot_front_laser_max 8 h 0\n");
+    for step in 0..60_u32 {
+        let x = 0.2 * f64::from(step);
+        log += &format!("FLASER 181 {} {x:.3} 0 0 {x:.3} 0 0 {step} h {step}\n", scan.join(" "));
+    }
+    assert!(read(&log).unwrap().is_facing_unclear);
+    assert!(!read(&driving(0.0, false)).unwrap().is_facing_unclear);
+    assert!(!read(&turning(180.0, 181, "")).unwrap().is_facing_unclear, "it hardly drove");
 }
 
 /// A laser that is mounted upside down: its beams come from left to right.

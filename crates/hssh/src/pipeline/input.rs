@@ -193,6 +193,12 @@ impl SurveyedLog {
                 None => warnings.push(AnswerWarning::once(kind, warning.to_string())),
             }
         }
+        // A laser that looks back sees no way out, and then no travel contradicts it.
+        if self.log.is_facing_unclear && self.survey.travels.is_empty() {
+            let sentence = "one place was met along the whole way, and nothing along it tells whether the laser looks ahead, as \
+                            was taken for granted, or back (--laser-pose says so)";
+            warnings.push(AnswerWarning::once(WarningKind::LaserView, sentence.to_owned()));
+        }
         for warning in &self.survey.warnings {
             let (kind, scan) = match *warning {
                 SurveyWarning::Contradicted { scan, .. } => (WarningKind::ContradictedReturn, scan),
