@@ -117,6 +117,11 @@ pub enum LogWarning {
         /// Where it seems to look, as seen from where it was taken to: radians, counterclockwise.
         seen: f64,
     },
+    /// The scans move farther, or less far, than the odometry does.
+    OdometryScale {
+        /// About so many times as far.
+        seen: f64,
+    },
     /// The scans turn with the robot instead of against it: their beams come in the other order.
     Mirrored,
     /// Many readings are beyond the limit that the log says.
@@ -153,6 +158,7 @@ impl LogWarning {
             | LogWarning::LimitDoubted { .. }
             | LogWarning::LaserPose { .. }
             | LogWarning::Facing { .. }
+            | LogWarning::OdometryScale { .. }
             | LogWarning::Mirrored
             | LogWarning::View { .. } => 0,
         }
@@ -168,6 +174,7 @@ impl LogWarning {
             | LogWarning::LimitDoubted { .. }
             | LogWarning::LaserPose { .. }
             | LogWarning::Facing { .. }
+            | LogWarning::OdometryScale { .. }
             | LogWarning::Mirrored
             | LogWarning::View { .. } => false,
         }
@@ -218,6 +225,11 @@ impl fmt::Display for LogWarning {
                 "the walls do not come toward the robot as it drives: they move as if the laser were turned by about {:.0}° \
                  from where it was taken to look; what is made of the log is wrong if it is (--laser-pose says so)",
                 seen.to_degrees()
+            ),
+            LogWarning::OdometryScale { seen } => write!(
+                f,
+                "the walls come toward the robot about {seen:.1} times as fast as the odometry says: are both in metres, and are \
+                 the wheels as large as they are said to be? what is made of the log is wrong if not"
             ),
             LogWarning::Mirrored => f.write_str(
                 "the walls turn with the robot and not against it: the beams seem to come from left to right, as of a laser \

@@ -1,8 +1,10 @@
-//! Whether the scans move as the odometry does: where the laser looks backward or sideways, they do not.
+//! Whether the scans move as the odometry does: where the laser looks backward or sideways, or the odometry counts in other
+//! units, they do not.
 //!
 //! Along a straight step the second scan lies on the first one if it is moved by the step, seen from the laser. If the laser
-//! is turned on the robot, it lies there only if the step is turned as well. All steps of a log are asked together: along a
-//! bare corridor ahead and back look alike, and the few that pass a crossing or near an end decide.
+//! is turned on the robot, it lies there only if the step is turned as well; if the odometry is too long or too short, only if
+//! the step is scaled. All steps of a log are asked together: along a bare corridor ahead and back look alike, and the few
+//! that pass a crossing or near an end decide.
 
 use std::f64::consts::{PI, TAU};
 
@@ -27,6 +29,11 @@ const MOST_APART: f64 = 0.3;
 const MOST_POINTS: usize = 181;
 /// Ways to face that are tried, evenly around.
 const FACINGS: usize = 36;
+/// How many times as long as the odometry says the steps may be, if the laser looks ahead: feet for metres and the other way
+/// round among them, and none at all, which fits best along bare walls.
+const SCALES: [f64; 7] = [0.0, 0.305, 0.5, 0.7, 1.4, 2.0, 3.28];
+/// All that is tried.
+const TRIALS: usize = FACINGS + SCALES.len();
 const AHEAD: usize = 0;
 const BACK: usize = FACINGS / 2;
 /// A laser that looks elsewhere by less than this is not doubted, in radians: so much wheels slip, or somebody mounts it.
@@ -42,15 +49,17 @@ impl RawLog {
     pub(super) fn check_facing(&self, view: f64, max_range: f64, warnings: &mut Vec<LogWarning>) -> bool {
         let steps = self.straight_steps();
         let chosen = steps.iter().step_by(steps.len().div_ceil(MOST_STEPS).max(1));
-        let apart: Vec<[f64; FACINGS]> = chosen
+        let apart: Vec<[f64; TRIALS]> = chosen
             .filter_map(|&(one, other, step)| {
                 let [one, other] = [one, other].map(|scan| Sight::new(&scan.ranges, view, max_range));
                 one.apart_by_facing(&other, step)
             })
             .collect();
         let facing = if apart.len() < LEAST_STEPS { Facing::Ahead } else { facing(&apart) };
-        if let Facing::Elsewhere(seen) = facing {
-            warnings.push(LogWarning::Facing { seen });
+        match facing {
+            Facing::Elsewhere(seen) => warnings.push(LogWarning::Facing { seen }),
+            Facing::Scaled(seen) => warnings.push(LogWarning::OdometryScale { seen }),
+            Facing::Ahead | Facing::Unknown => {}
         }
         matches!(facing, Facing::Unknown)
     }
@@ -96,11 +105,12 @@ impl Sight {
         Sight { points: came_back.map(point).collect(), half_view: 0.5 * view }
     }
 
-    /// How far the points of these two are apart on average if the laser made that step, for each way to face.
-    fn apart_by_facing(&self, other: &Sight, step: Pose) -> Option<[f64; FACINGS]> {
-        let mut apart = [0.0; FACINGS];
-        for (facing, apart) in apart.iter_mut().enumerate() {
-            let turned = Pose::new(0.0, 0.0, -angle(facing)).compose(Pose::new(step.x, step.y, 0.0));
+    /// How far the points of these two are apart on average if the laser made that step, for each trial.
+    fn apart_by_facing(&self, other: &Sight, step: Pose) -> Option<[f64; TRIALS]> {
+        let mut apart = [0.0; TRIALS];
+        for (trial, apart) in apart.iter_mut().enumerate() {
+            let (facing, scale) = (angle(trial), scale(trial));
+            let turned = Pose::new(0.0, 0.0, -facing).compose(Pose::new(scale * step.x, scale * step.y, 0.0));
             let step = Pose::new(turned.x, turned.y, step.theta);
             let (there, back) = (self.apart(other, step)?, other.apart(self, step.inverse())?);
             *apart = 0.5 * (there + back);
@@ -123,9 +133,14 @@ impl Sight {
 }
 
 /// Radians from straight ahead, counterclockwise.
-fn angle(facing: usize) -> f64 {
-    let angle = TAU * facing as f64 / FACINGS as f64;
+fn angle(trial: usize) -> f64 {
+    let angle = if trial < FACINGS { TAU * trial as f64 / FACINGS as f64 } else { 0.0 };
     if angle > PI { angle - TAU } else { angle }
+}
+
+/// How many times as long as the odometry says.
+fn scale(trial: usize) -> f64 {
+    if trial < FACINGS { 1.0 } else { SCALES[trial - FACINGS] }
 }
 
 /// Which way the laser looks, as the steps tell.
@@ -133,15 +148,22 @@ enum Facing {
     Ahead,
     /// Radians from straight ahead, counterclockwise.
     Elsewhere(f64),
+    /// Ahead, and the steps are so many times as long as the odometry says.
+    Scaled(f64),
     /// Ahead and back look alike.
     Unknown,
 }
 
-fn facing(apart: &[[f64; FACINGS]]) -> Facing {
+fn facing(apart: &[[f64; TRIALS]]) -> Facing {
     let mean = |facing: usize| apart.iter().map(|step| step[facing]).sum::<f64>() / apart.len() as f64;
-    let best = (0..FACINGS).min_by(|&a, &b| mean(a).total_cmp(&mean(b))).unwrap_or_default();
-    if is_nearer(apart, best, AHEAD) && mean(best) < BETTER * mean(AHEAD) {
-        if angle(best).abs() > NEGLIGIBLE { Facing::Elsewhere(angle(best)) } else { Facing::Ahead }
+    let best =
+        |trials: std::ops::Range<usize>| trials.min_by(|&a, &b| mean(a).total_cmp(&mean(b))).unwrap_or(AHEAD);
+    let is_better = |trial: usize| is_nearer(apart, trial, AHEAD) && mean(trial) < BETTER * mean(AHEAD);
+    let (facing, any) = (best(0..FACINGS), best(0..TRIALS));
+    if is_better(facing) && angle(facing).abs() > NEGLIGIBLE {
+        Facing::Elsewhere(angle(facing))
+    } else if is_better(any) && any >= FACINGS {
+        if scale(any) > 0.0 { Facing::Scaled(scale(any)) } else { Facing::Unknown }
     } else if is_nearer(apart, AHEAD, BACK) {
         Facing::Ahead
     } else {
@@ -150,7 +172,7 @@ fn facing(apart: &[[f64; FACINGS]]) -> Facing {
 }
 
 /// Whether the points lie nearer with one way to face than with another, step by step and beyond chance.
-fn is_nearer(apart: &[[f64; FACINGS]], one: usize, other: usize) -> bool {
+fn is_nearer(apart: &[[f64; TRIALS]], one: usize, other: usize) -> bool {
     let count = apart.len() as f64;
     let nearer = || apart.iter().map(|step| step[other] - step[one]);
     let average = nearer().sum::<f64>() / count;

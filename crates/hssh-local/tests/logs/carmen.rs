@@ -318,6 +318,29 @@ fn a_laser_that_looks_elsewhere_is_doubted() {
     assert_eq!(facing(&read(&driving(0.1, false)).unwrap()), None);
 }
 
+/// Odometry in feet, or of wheels that are taken for twice as large.
+#[test]
+fn odometry_of_another_length_is_doubted() {
+    for factor in [3.28, 2.0, 0.7] {
+        let scaled = |line: &str| {
+            let mut words: Vec<String> = line.split(' ').map(str::to_owned).collect();
+            if words[0] == "FLASER" {
+                for word in [183, 186] {
+                    words[word] = format!("{:.4}", factor * words[word].parse::<f64>().unwrap());
+                }
+            }
+            words.join(" ") + "\n"
+        };
+        let log: String = driving(0.0, false).lines().map(scaled).collect();
+        let warnings = read(&log).unwrap().warnings;
+        let seen = warnings.iter().find_map(|warning| match warning {
+            LogWarning::OdometryScale { seen } => Some(*seen),
+            _ => None,
+        });
+        assert!(seen.is_some_and(|seen| (0.8..1.25).contains(&(seen * factor))), "{factor}: {warnings:?}");
+    }
+}
+
 /// Between two bare walls, nothing tells ahead from back.
 #[test]
 fn a_bare_corridor_does_not_tell_where_the_laser_looks() {

@@ -44,6 +44,7 @@ impl Answer {
                     | WarningKind::Lost
                     | WarningKind::NoOdometry
                     | WarningKind::LaserView
+                    | WarningKind::RangeLimitDoubted
                     | WarningKind::Questionable
                     | WarningKind::SurveyInterrupted
             )

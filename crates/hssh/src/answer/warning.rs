@@ -18,6 +18,8 @@ pub enum WarningKind {
     OdometryJump,
     /// The limit of the laser was taken from its readings.
     RangeLimit,
+    /// Many readings are longer than the limit that the log says.
+    RangeLimitDoubted,
     /// The laser is not at the robot's axis.
     LaserPose,
     /// The scans do not move as the odometry does: the laser looks wider, elsewhere or the other way round than was

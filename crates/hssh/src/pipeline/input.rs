@@ -180,7 +180,8 @@ impl SurveyedLog {
                 LogWarning::OddBeams { line, .. } => (WarningKind::BeamsWithoutRange, Some(*line)),
                 LogWarning::Jump { line, .. } => (WarningKind::OdometryJump, Some(*line)),
                 LogWarning::RangeLimit { .. } => (WarningKind::RangeLimit, None),
-                LogWarning::LimitDoubted { .. } => (WarningKind::RangeLimit, None),
+                LogWarning::LimitDoubted { .. } => (WarningKind::RangeLimitDoubted, None),
+                LogWarning::OdometryScale { .. } => (WarningKind::Questionable, None),
                 LogWarning::View { .. } | LogWarning::Facing { .. } | LogWarning::Mirrored => {
                     (WarningKind::LaserView, None)
                 }
