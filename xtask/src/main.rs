@@ -3,6 +3,7 @@
 
 mod ci;
 mod experiments;
+mod faults;
 mod layers;
 mod root;
 mod tidy;
@@ -14,6 +15,7 @@ use std::process::ExitCode;
 
 const HELP: &str = "Checks:
     tidy    Checks what lints cannot: module sentences, file lengths, words, layers.
+    faults  Runs the program over faulty inputs and prints what it says of each.
     ci      Everything that has to pass before a change is taken.
 
 Experiments, benchmarks and measurements:
@@ -35,7 +37,10 @@ fn run(arguments: &[OsString]) -> Result<ExitCode, Box<dyn Error>> {
     match words[..] {
         ["tidy"] => tidy::run()?,
         ["ci"] => ci::run()?,
-        ["tidy" | "ci", unexpected, ..] => return Err(format!("unexpected argument `{unexpected}`").into()),
+        ["faults"] => faults::run()?,
+        ["tidy" | "ci" | "faults", unexpected, ..] => {
+            return Err(format!("unexpected argument `{unexpected}`").into());
+        }
         [] | ["help" | "-h" | "--help"] => {
             print!("{HELP}");
             return experiments::run(["--help"]);

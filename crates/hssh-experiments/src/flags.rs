@@ -38,7 +38,7 @@ xflags::xflags! {
             /// Print JSON instead of tables.
             optional --json
         }
-        /// Times the mapper: `speed`, `faces` or `proof`, all three if not given; or pose graphs: `graphs`, `closures`.
+        /// Times the mapper: `speed`, `faces` or `proof`, all three if not given; or pose graphs: `graphs`, `closures`, `wrong-closures`.
         cmd bench {
             /// Which one.
             optional name: String

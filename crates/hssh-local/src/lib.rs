@@ -67,8 +67,8 @@ pub use roadmap::{
 pub use route::RouteOptions;
 pub use scan::Scan;
 pub use skeleton::{
-    AxisPoint, EdgeEnd, EdgeId, FreeSpace, NodeId, Skeleton, SkeletonEdge, SkeletonNode, SkeletonOptions,
-    Tip, UnknownSpace,
+    AxisPoint, EdgeEnd, FreeSpace, Skeleton, SkeletonEdge, SkeletonEdgeId, SkeletonNode, SkeletonNodeId,
+    SkeletonOptions, Tip, UnknownSpace,
 };
 pub use survey::{
     Evidence, PerceptionModel, Resemblance, Survey, SurveyError, SurveyOptions, SurveyStage, SurveyWarning,

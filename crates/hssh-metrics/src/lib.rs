@@ -69,7 +69,7 @@ mod uncertainty;
 
 pub use angle::wrap_angle;
 pub use anywhere::solve_from_anywhere;
-pub use bayes_network::{BayesNetwork, Observation, Variable};
+pub use bayes_network::{BayesNetwork, Measurement, Variable};
 pub use floating::floating_poses;
 pub use graduated::{Screening, screen_closures};
 pub use graph::{Edge, GraphError, PoseGraph, PoseId};

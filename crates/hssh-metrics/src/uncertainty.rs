@@ -1,6 +1,6 @@
 //! Covariance and information matrices that cannot be wrong, and how they travel between frames (section 4.2).
 
-use nalgebra::{Cholesky, Matrix3, U3};
+use nalgebra::{Cholesky, Matrix3, SymmetricEigen, U3};
 
 use crate::pose::{Pose, frame_rotation};
 
@@ -22,6 +22,9 @@ pub struct Information(Matrix3<f64>);
 
 /// Eigenvalues below this part of the largest are zero: text files round.
 const NEGLIGIBLE: f64 = 1e-9;
+
+/// Eigenvalues below this part of the largest are zero as well as double precision can have it.
+const ROUNDING: f64 = 1e-14;
 
 /// Why a matrix is no covariance and no information matrix.
 #[derive(Clone, Copy, PartialEq, Debug, thiserror::Error)]
@@ -94,6 +97,22 @@ fn checked_symmetric(matrix: Matrix3<f64>) -> Result<Matrix3<f64>, UncertaintyEr
 
 fn symmetrized(matrix: Matrix3<f64>) -> Matrix3<f64> {
     0.5 * matrix + 0.5 * matrix.transpose()
+}
+
+/// The matrix with these eigenvectors whose eigenvalues are zero where they are negligible: not positive definite, whichever
+/// way it rounds, so that it is the same again when it is read again.
+fn cleared(eigen: &SymmetricEigen<f64, U3>) -> Matrix3<f64> {
+    let largest = eigen.eigenvalues.max();
+    let mut none = 0.0;
+    loop {
+        let clear = eigen.eigenvalues.map(|value| if value <= NEGLIGIBLE * largest { none } else { value });
+        let rebuilt = eigen.eigenvectors * Matrix3::from_diagonal(&clear) * eigen.eigenvectors.transpose();
+        let rebuilt = symmetrized(rebuilt);
+        if rebuilt.cholesky().is_none() {
+            return rebuilt;
+        }
+        none = 2.0 * none - f64::EPSILON * largest;
+    }
 }
 
 fn cholesky(matrix: &Matrix3<f64>) -> Cholesky<f64, U3> {
@@ -193,9 +212,14 @@ impl Information {
         if zeros.count() == unmeasured.filter(|&&is_zero| is_zero).count() {
             return Ok(Information(symmetric)); // the zeros are exact as they stand
         }
-        let clear = eigen.eigenvalues.map(|value| if value <= zero { 0.0 } else { value });
-        let rebuilt = eigen.eigenvectors * Matrix3::from_diagonal(&clear) * eigen.eigenvectors.transpose();
-        Ok(Information(symmetrized(rebuilt)))
+        if eigen
+            .eigenvalues
+            .iter()
+            .all(|&value| value > zero || value.abs() <= ROUNDING * eigen.eigenvalues.max())
+        {
+            return Ok(Information(symmetric)); // and so they are here, up to rounding
+        }
+        Ok(Information(cleared(&eigen)))
     }
 
     /// How many directions are measured: three, if the matrix is positive definite.

@@ -72,13 +72,15 @@ impl FileKind {
 /// With its article, and what tells it.
 impl fmt::Display for FileKind {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        // A word of somebody else's file, for a terminal: short, and without control characters.
+        let word = |word: &str| word.chars().take(40).flat_map(char::escape_debug).collect::<String>();
         match self {
             FileKind::Exploration => write!(f, "an exploration"),
-            FileKind::LaserLog(first) => write!(f, "a laser log (its first message is `{first}`)"),
-            FileKind::PoseGraph(first) => write!(f, "a pose graph (its first record is `{first}`)"),
+            FileKind::LaserLog(first) => write!(f, "a laser log (its first message is `{}`)", word(first)),
+            FileKind::PoseGraph(first) => write!(f, "a pose graph (its first record is `{}`)", word(first)),
             FileKind::MapDescription => write!(f, "the description of a grid map"),
             FileKind::Image(kind) => write!(f, "an image ({kind})"),
-            FileKind::Written(format) => write!(f, "what hssh wrote ({format})"),
+            FileKind::Written(format) => write!(f, "what hssh wrote ({})", word(format)),
             FileKind::Foreign(what) => write!(f, "{what}"),
             FileKind::Compressed(by, _) => write!(f, "compressed by {by}"),
             FileKind::Text => write!(f, "text of no kind that hssh knows"),
@@ -225,6 +227,10 @@ mod tests {
         assert_eq!(of("hello"), FileKind::Text);
         assert_eq!(of(""), FileKind::Empty);
         assert_eq!(FileKind::of(&[0; 9]), FileKind::Foreign("binary data"));
+        let told = of("{\"format\": \"hssh-a\n\u{1b}[31m\"").to_string();
+        assert_eq!(told, "what hssh wrote (hssh-a\\n\\u{1b}[31m)");
+        let told = of(&format!("EDGE\u{7}{}", "x".repeat(1_000_000))).to_string();
+        assert!(told.len() < 100 && !told.contains('\u{7}'), "{told}");
         assert!(matches!(FileKind::of(b"\xFD7zXZ\0\0"), FileKind::Compressed("xz", _)));
     }
 }

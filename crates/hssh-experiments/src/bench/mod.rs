@@ -8,6 +8,7 @@ mod online;
 mod proof;
 pub(crate) mod speed;
 pub(crate) mod usage;
+mod wrong_closures;
 
 use std::error::Error;
 use std::path::PathBuf;
@@ -26,6 +27,7 @@ pub(crate) fn run(flags: &flags::Bench) -> Result<(), Box<dyn Error>> {
         Some("proof") => proof::run(limit),
         Some("graphs") => graphs::run(flags.data.as_deref(), runs),
         Some("closures") => closures::run(runs),
+        Some("wrong-closures") => wrong_closures::run(),
         Some("certificates") => certificates::run(),
         Some("online") => online::run(flags.data.as_deref().or(data.as_deref())),
         None => {
@@ -34,7 +36,7 @@ pub(crate) fn run(flags: &flags::Bench) -> Result<(), Box<dyn Error>> {
             proof::run(limit)
         }
         Some(other) => {
-            let names = "speed, faces, proof, graphs, closures, online, certificates";
+            let names = "speed, faces, proof, graphs, closures, wrong-closures, online, certificates";
             Err(format!("there is no benchmark `{other}`; there are: {names}").into())
         }
     }

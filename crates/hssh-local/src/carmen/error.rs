@@ -112,6 +112,18 @@ pub enum LogWarning {
         /// Whether the view was given, by the log or by the user.
         is_told: bool,
     },
+    /// The scans move as if the laser looked elsewhere than was taken for granted.
+    Facing {
+        /// Where it seems to look, as seen from where it was taken to: radians, counterclockwise.
+        seen: f64,
+    },
+    /// The scans move farther, or less far, than the odometry does.
+    OdometryScale {
+        /// About so many times as far.
+        seen: f64,
+    },
+    /// The scans turn with the robot instead of against it: their beams come in the other order.
+    Mirrored,
     /// Many readings are beyond the limit that the log says.
     LimitDoubted {
         /// The limit: metres.
@@ -145,6 +157,9 @@ impl LogWarning {
             LogWarning::RangeLimit { .. }
             | LogWarning::LimitDoubted { .. }
             | LogWarning::LaserPose { .. }
+            | LogWarning::Facing { .. }
+            | LogWarning::OdometryScale { .. }
+            | LogWarning::Mirrored
             | LogWarning::View { .. } => 0,
         }
     }
@@ -158,6 +173,9 @@ impl LogWarning {
             | LogWarning::RangeLimit { .. }
             | LogWarning::LimitDoubted { .. }
             | LogWarning::LaserPose { .. }
+            | LogWarning::Facing { .. }
+            | LogWarning::OdometryScale { .. }
+            | LogWarning::Mirrored
             | LogWarning::View { .. } => false,
         }
     }
@@ -201,6 +219,21 @@ impl fmt::Display for LogWarning {
                 view.to_degrees(),
                 if *is_told { ", as it is said to" } else { ", as was taken for granted" },
                 seen.to_degrees()
+            ),
+            LogWarning::Facing { seen } => write!(
+                f,
+                "the walls do not come toward the robot as it drives: they move as if the laser were turned by about {:.0}° \
+                 from where it was taken to look; what is made of the log is wrong if it is (--laser-pose says so)",
+                seen.to_degrees()
+            ),
+            LogWarning::OdometryScale { seen } => write!(
+                f,
+                "the walls come toward the robot about {seen:.1} times as fast as the odometry says: are both in metres, and are \
+                 the wheels as large as they are said to be? what is made of the log is wrong if not"
+            ),
+            LogWarning::Mirrored => f.write_str(
+                "the walls turn with the robot and not against it: the beams seem to come from left to right, as of a laser \
+                 mounted upside down, or the odometry turns the other way; what is made of the log is wrong if so",
             ),
             LogWarning::LimitDoubted { said, beyond, beams, longest } => write!(
                 f,

@@ -41,6 +41,9 @@ pub struct LaserLog {
     pub max_range: f64,
     /// How many messages of kinds that are not read, by kind; comments are `#`.
     pub skipped: BTreeMap<String, u64>,
+    /// Whether the robot drove straight on, and nothing that it saw there tells whether its laser looks ahead, as is taken for
+    /// granted, or back.
+    pub is_facing_unclear: bool,
     /// What was passed over.
     pub warnings: Vec<LogWarning>,
 }
@@ -76,6 +79,7 @@ impl LaserLog {
         raw.move_to_laser(known, &mut warnings);
         raw.bridge_jumps(&mut warnings);
         let max_range = raw.limit(&mut warnings)?;
+        let is_facing_unclear = raw.check_facing(view, max_range, &mut warnings);
         warnings.sort_by_key(LogWarning::line);
         let came_back = |range: f64| if range > 0.0 && range < max_range { range } else { f64::INFINITY };
         let logged = |scan: RawScan| LoggedScan {
@@ -91,6 +95,7 @@ impl LaserLog {
             trajectory: raw.trajectory.into_iter().map(|moment| moment.pose).collect(),
             max_range,
             skipped: raw.skipped,
+            is_facing_unclear,
             warnings,
         })
     }

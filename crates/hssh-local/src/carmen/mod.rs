@@ -10,6 +10,7 @@
 //! Names of messages may be in capitals or not. The last of several values of a parameter counts, for the whole log.
 
 mod error;
+mod facing;
 mod jump;
 mod limit;
 mod log;

@@ -25,12 +25,16 @@ impl RawLog {
     /// Warns if scans turn otherwise than the odometry, with that view in radians.
     pub(super) fn check_view(&self, view: f64, is_told: bool, warnings: &mut Vec<LogWarning>) {
         let Some(scale) = self.scale_of_turns() else { return };
+        if scale < 0.0 {
+            warnings.push(LogWarning::Mirrored);
+            return;
+        }
         if !(1.0 / DOUBTFUL..DOUBTFUL).contains(&(scale / view)) {
             warnings.push(LogWarning::View { view, seen: scale.min(std::f64::consts::TAU), is_told });
         }
     }
 
-    /// The view with which the scans turn as the odometry does: the middle one of what pairs of scans say.
+    /// The view with which the scans turn as the odometry does, negative if they turn the other way: the middle one of what pairs of scans say.
     fn scale_of_turns(&self) -> Option<f64> {
         let beams = self.scans.first()?.ranges.len();
         let steps = (beams - beams % 2) as f64;
@@ -48,7 +52,7 @@ impl RawLog {
         let mut views: Vec<f64> = chosen
             .filter_map(|(one, other, turn)| {
                 let shift = shift(&one.ranges, &other.ranges)?;
-                Some(turn / shift * steps).filter(|view| *view > 0.0)
+                Some(turn / shift * steps)
             })
             .collect();
         views.sort_by(f64::total_cmp);

@@ -4,13 +4,13 @@ use crate::grid::Cell;
 
 /// A node of a skeleton: an index into [`Skeleton::nodes`].
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
-pub struct NodeId(pub u32);
+pub struct SkeletonNodeId(pub u32);
 
 /// An edge of a skeleton: an index into [`Skeleton::edges`].
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
-pub struct EdgeId(pub u32);
+pub struct SkeletonEdgeId(pub u32);
 
-impl NodeId {
+impl SkeletonNodeId {
     /// The node as an index.
     #[must_use]
     pub fn index(self) -> usize {
@@ -18,7 +18,7 @@ impl NodeId {
     }
 }
 
-impl EdgeId {
+impl SkeletonEdgeId {
     /// The edge as an index.
     #[must_use]
     pub fn index(self) -> usize {
@@ -41,7 +41,7 @@ pub struct AxisPoint {
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
 pub struct EdgeEnd {
     /// The edge.
-    pub edge: EdgeId,
+    pub edge: SkeletonEdgeId,
     /// Whether it is the edge's last point and not its first.
     pub is_last: bool,
 }
@@ -80,7 +80,7 @@ pub struct SkeletonNode {
 #[derive(Clone, PartialEq, Debug)]
 pub struct SkeletonEdge {
     /// The nodes at its first and last point; the same one if it is a loop.
-    pub nodes: [NodeId; 2],
+    pub nodes: [SkeletonNodeId; 2],
     /// Its points in order, those of the nodes included.
     pub points: Vec<AxisPoint>,
 }
@@ -97,13 +97,13 @@ pub struct Skeleton {
 impl Skeleton {
     /// An edge.
     #[must_use]
-    pub fn edge(&self, edge: EdgeId) -> &SkeletonEdge {
+    pub fn edge(&self, edge: SkeletonEdgeId) -> &SkeletonEdge {
         &self.edges[edge.index()]
     }
 
     /// A node.
     #[must_use]
-    pub fn node(&self, node: NodeId) -> &SkeletonNode {
+    pub fn node(&self, node: SkeletonNodeId) -> &SkeletonNode {
         &self.nodes[node.index()]
     }
 
@@ -116,7 +116,7 @@ impl Skeleton {
 
     /// The node at the end of an edge.
     #[must_use]
-    pub fn node_at(&self, end: EdgeEnd) -> NodeId {
+    pub fn node_at(&self, end: EdgeEnd) -> SkeletonNodeId {
         self.edge(end.edge).nodes[usize::from(end.is_last)]
     }
 }

@@ -2,12 +2,12 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use super::graph::{EdgeEnd, EdgeId, NodeId, SkeletonEdge};
+use super::graph::{EdgeEnd, SkeletonEdge, SkeletonEdgeId, SkeletonNodeId};
 
 /// A part of an axis that one edge, its bridge, connects to the rest.
 pub(super) struct Lobe {
     /// All its edges, the bridge included.
-    pub(super) edges: BTreeSet<EdgeId>,
+    pub(super) edges: BTreeSet<SkeletonEdgeId>,
     /// How far its farthest point is from the rest along the axis, in metres.
     pub(super) reach: f64,
 }
@@ -29,7 +29,7 @@ impl Remains<'_> {
         let (root, exit) = (self.node(bridge)?, bridge.opposite());
         // Dijkstra's algorithm; within reach there are so few nodes that the nearest one is looked for.
         let mut waiting = vec![(self.length(bridge.edge), self.node(exit)?)];
-        let mut distances: BTreeMap<NodeId, f64> = BTreeMap::new();
+        let mut distances: BTreeMap<SkeletonNodeId, f64> = BTreeMap::new();
         while let Some(next) = nearest(&waiting) {
             let (distance, node) = waiting.swap_remove(next);
             if distances.contains_key(&node) {
@@ -44,8 +44,8 @@ impl Remains<'_> {
             }
         }
         let ends = distances.keys().flat_map(|node| &self.nodes[node.index()]);
-        let edges: BTreeSet<EdgeId> = ends.map(|end| end.edge).collect();
-        let farthest = |&edge: &EdgeId| {
+        let edges: BTreeSet<SkeletonEdgeId> = ends.map(|end| end.edge).collect();
+        let farthest = |&edge: &SkeletonEdgeId| {
             let nodes = self.edges[edge.index()].as_ref()?.nodes;
             let known = nodes.map(|node| distances.get(&node));
             // The two ways around a loop are equally long where they meet.
@@ -56,15 +56,15 @@ impl Remains<'_> {
         (reach <= most).then_some(Lobe { edges, reach })
     }
 
-    fn length(&self, edge: EdgeId) -> f64 {
+    fn length(&self, edge: SkeletonEdgeId) -> f64 {
         self.lengths[edge.index()]
     }
 
-    fn node(&self, end: EdgeEnd) -> Option<NodeId> {
+    fn node(&self, end: EdgeEnd) -> Option<SkeletonNodeId> {
         self.edges[end.edge.index()].as_ref().map(|edge| edge.nodes[usize::from(end.is_last)])
     }
 }
 
-fn nearest(waiting: &[(f64, NodeId)]) -> Option<usize> {
+fn nearest(waiting: &[(f64, SkeletonNodeId)]) -> Option<usize> {
     (0..waiting.len()).min_by(|&a, &b| waiting[a].0.total_cmp(&waiting[b].0))
 }

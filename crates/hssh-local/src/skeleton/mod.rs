@@ -16,6 +16,8 @@ mod tip;
 mod trace;
 
 pub use free_space::FreeSpace;
-pub use graph::{AxisPoint, EdgeEnd, EdgeId, NodeId, Skeleton, SkeletonEdge, SkeletonNode, Tip};
+pub use graph::{
+    AxisPoint, EdgeEnd, Skeleton, SkeletonEdge, SkeletonEdgeId, SkeletonNode, SkeletonNodeId, Tip,
+};
 pub(crate) use graph::{distance, distances, length};
 pub use options::{SkeletonOptions, UnknownSpace};

@@ -2,7 +2,9 @@
 
 use std::collections::BTreeSet;
 
-use super::graph::{AxisPoint, EdgeEnd, EdgeId, NodeId, Skeleton, SkeletonEdge, distances, length};
+use super::graph::{
+    AxisPoint, EdgeEnd, Skeleton, SkeletonEdge, SkeletonEdgeId, SkeletonNodeId, distances, length,
+};
 use super::lobe::Remains;
 use super::options::SkeletonOptions;
 
@@ -43,10 +45,10 @@ struct Pruner {
 
 impl Pruner {
     /// The edges of the shallowest branch that is shallower than allowed.
-    fn shallowest_branch(&self, shallowest: f64) -> Option<BTreeSet<EdgeId>> {
+    fn shallowest_branch(&self, shallowest: f64) -> Option<BTreeSet<SkeletonEdgeId>> {
         let with_tip = self.edges.iter().enumerate().filter_map(|(index, edge)| {
             let depth = self.depth(edge.as_ref()?, self.lengths[index])?;
-            (depth < shallowest).then(|| (depth, BTreeSet::from([EdgeId(index as u32)])))
+            (depth < shallowest).then(|| (depth, BTreeSet::from([SkeletonEdgeId(index as u32)])))
         });
         let with_tip = with_tip.min_by(|a, b| a.0.total_cmp(&b.0));
         let lobe = || self.shallow_lobes(shallowest).min_by(|a, b| a.0.total_cmp(&b.0));
@@ -55,7 +57,7 @@ impl Pruner {
 
     /// Lobes with loops that are shallower than allowed, with how far they reach beyond the free disc at
     /// their junction.
-    fn shallow_lobes(&self, shallowest: f64) -> impl Iterator<Item = (f64, BTreeSet<EdgeId>)> {
+    fn shallow_lobes(&self, shallowest: f64) -> impl Iterator<Item = (f64, BTreeSet<SkeletonEdgeId>)> {
         let remains = Remains { nodes: &self.nodes, edges: &self.edges, lengths: &self.lengths };
         let junctions = (0..self.nodes.len()).filter(|&node| self.nodes[node].len() > 2);
         let ends = junctions.flat_map(|node| self.nodes[node].iter().map(move |&end| (node, end)));
@@ -67,11 +69,11 @@ impl Pruner {
     }
 
     /// The edges of all pieces of the axis that are shorter than allowed.
-    fn small_pieces(&self, shortest: f64) -> BTreeSet<EdgeId> {
+    fn small_pieces(&self, shortest: f64) -> BTreeSet<SkeletonEdgeId> {
         let mut small = BTreeSet::new();
         let mut is_seen = vec![false; self.nodes.len()];
         for start in 0..self.nodes.len() {
-            let (mut piece, mut waiting) = (BTreeSet::new(), vec![NodeId(start as u32)]);
+            let (mut piece, mut waiting) = (BTreeSet::new(), vec![SkeletonNodeId(start as u32)]);
             while let Some(node) = waiting.pop() {
                 if !std::mem::replace(&mut is_seen[node.index()], true) {
                     let edges = self.nodes[node.index()].iter().map(|end| end.edge);
@@ -119,7 +121,7 @@ impl Pruner {
     }
 
     /// Takes out edges, and joins what remains where they were.
-    fn take_out(&mut self, edges: BTreeSet<EdgeId>) {
+    fn take_out(&mut self, edges: BTreeSet<SkeletonEdgeId>) {
         let mut touched = BTreeSet::new();
         for id in edges {
             let Some(edge) = self.edges[id.index()].take() else { continue };
@@ -133,12 +135,12 @@ impl Pruner {
 
     fn join_all(&mut self) {
         for node in 0..self.nodes.len() {
-            self.join_at(NodeId(node as u32));
+            self.join_at(SkeletonNodeId(node as u32));
         }
     }
 
     /// Makes one edge of two different ones that meet at a node and nothing else does.
-    fn join_at(&mut self, node: NodeId) {
+    fn join_at(&mut self, node: SkeletonNodeId) {
         let [first, second] = self.nodes[node.index()][..] else { return };
         if first.edge == second.edge {
             return;
@@ -171,7 +173,7 @@ impl Pruner {
         let mut number = vec![None; self.nodes.len()];
         for (index, ends) in self.nodes.iter().enumerate() {
             if !ends.is_empty() || !had_edges(index) {
-                number[index] = Some(NodeId(rest.nodes.len() as u32));
+                number[index] = Some(SkeletonNodeId(rest.nodes.len() as u32));
                 let mut node = self.skeleton.nodes[index].clone();
                 node.ends.clear();
                 rest.nodes.push(node);
@@ -179,7 +181,7 @@ impl Pruner {
         }
         for edge in self.edges.into_iter().flatten() {
             let [Some(first), Some(last)] = edge.nodes.map(|node| number[node.index()]) else { continue };
-            let id = EdgeId(rest.edges.len() as u32);
+            let id = SkeletonEdgeId(rest.edges.len() as u32);
             rest.nodes[first.index()].ends.push(EdgeEnd { edge: id, is_last: false });
             rest.nodes[last.index()].ends.push(EdgeEnd { edge: id, is_last: true });
             rest.edges.push(SkeletonEdge { nodes: [first, last], ..edge });

@@ -1,6 +1,8 @@
 //! From the cells of a medial axis to its graph.
 
-use super::graph::{AxisPoint, EdgeEnd, EdgeId, NodeId, Skeleton, SkeletonEdge, SkeletonNode};
+use super::graph::{
+    AxisPoint, EdgeEnd, Skeleton, SkeletonEdge, SkeletonEdgeId, SkeletonNode, SkeletonNodeId,
+};
 use super::mask::Mask;
 use crate::distance::DistanceField;
 
@@ -24,7 +26,7 @@ pub(super) fn trace(axis: &Mask, field: &DistanceField) -> Skeleton {
     let members = tracer.find_nodes();
     for (node, positions) in members.iter().enumerate() {
         for &position in positions {
-            tracer.follow_all(NodeId(node as u32), position);
+            tracer.follow_all(SkeletonNodeId(node as u32), position);
         }
     }
     tracer.find_rings();
@@ -91,13 +93,13 @@ impl Tracer<'_> {
     }
 
     /// Follows every edge that leaves a node at one of its positions and was not followed yet.
-    fn follow_all(&mut self, node: NodeId, position: usize) {
+    fn follow_all(&mut self, node: SkeletonNodeId, position: usize) {
         let axis = self.axis;
         for near in axis.neighbors(position) {
             match self.node_of[near] {
                 NO_NODE if !self.is_passed[near] => self.follow(node, position, near),
                 other if other != NO_NODE && other > node.0 => {
-                    self.add_edge([node, NodeId(other)], &[]);
+                    self.add_edge([node, SkeletonNodeId(other)], &[]);
                 }
                 _ => {}
             }
@@ -105,7 +107,7 @@ impl Tracer<'_> {
     }
 
     /// Follows the line that leaves `node` from one position to the next, up to a node.
-    fn follow(&mut self, node: NodeId, from: usize, first: usize) {
+    fn follow(&mut self, node: SkeletonNodeId, from: usize, first: usize) {
         let (mut before, mut here) = (from, first);
         let mut between = Vec::new();
         loop {
@@ -115,7 +117,7 @@ impl Tracer<'_> {
             if self.node_of[next] != NO_NODE {
                 let is_inside_node = self.node_of[next] == node.0 && between.len() < 3;
                 if !is_inside_node {
-                    self.add_edge([node, NodeId(self.node_of[next])], &between);
+                    self.add_edge([node, SkeletonNodeId(self.node_of[next])], &between);
                 }
                 return;
             }
@@ -147,16 +149,16 @@ impl Tracer<'_> {
                 (1..ring.len()).fold(0, |best, at| if clearance(at) > clearance(best) { at } else { best });
             ring.rotate_left(widest);
             self.add_node(&ring[..1]);
-            let node = NodeId(self.graph.nodes.len() as u32 - 1);
+            let node = SkeletonNodeId(self.graph.nodes.len() as u32 - 1);
             self.add_edge([node; 2], &ring[1..]);
         }
     }
 
-    fn add_edge(&mut self, nodes: [NodeId; 2], between: &[usize]) {
+    fn add_edge(&mut self, nodes: [SkeletonNodeId; 2], between: &[usize]) {
         let mut points = vec![self.graph.node(nodes[0]).at];
         points.extend(between.iter().map(|&position| self.point(position)));
         points.push(self.graph.node(nodes[1]).at);
-        let edge = EdgeId(self.graph.edges.len() as u32);
+        let edge = SkeletonEdgeId(self.graph.edges.len() as u32);
         self.graph.edges.push(SkeletonEdge { nodes, points: smoothed(&points) });
         for (node, is_last) in nodes.into_iter().zip([false, true]) {
             self.graph.nodes[node.index()].ends.push(EdgeEnd { edge, is_last });

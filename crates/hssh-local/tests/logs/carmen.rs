@@ -1,5 +1,6 @@
 //! Reading logs: what is in them, what is wrong with them, and where.
 
+use std::f64::consts::{FRAC_PI_2, PI};
 use std::io::Write;
 
 use flate2::Compression;
@@ -266,6 +267,108 @@ fn a_view_that_contradicts_the_turns_is_doubted() {
     }
     let wrong = read(&turning(180.0, 181, "PARAM laser_front_laser_fov 270 h 0\n")).unwrap();
     assert!(view_doubted(&wrong).is_some_and(|(_, is_told)| is_told));
+}
+
+/// A log of a robot that drives ahead in a room with a pillar in each corner, its laser turned by so much.
+fn driving(facing: f64, is_mirrored: bool) -> String {
+    let pillars = [[7.0, 2.0], [6.0, -3.0], [-6.0, 2.5], [-7.0, -2.0], [1.5, 3.5], [2.5, -3.5]];
+    let range = |x: f64, heading: f64| {
+        let (s, c) = heading.sin_cos();
+        let walls = [(9.0 - x) / c, (-9.0 - x) / c, 4.0 / s, -4.0 / s];
+        let pillar = |[px, py]: [f64; 2]| {
+            let (along, aside) = (c * (px - x) + s * py, -s * (px - x) + c * py);
+            let half = (0.16 - aside * aside).sqrt(); // NaN where the beam misses it
+            if along > 0.0 && half.is_finite() { along - half } else { f64::INFINITY }
+        };
+        let seen = walls.into_iter().filter(|range| *range > 0.0).chain(pillars.map(pillar));
+        seen.fold(f64::INFINITY, f64::min)
+    };
+    let mut log = String::from("PARAM robot_front_laser_max 30 h 0\n");
+    for step in 0..40_u32 {
+        let x = -4.0 + 0.2 * f64::from(step);
+        let mut ranges: Vec<String> = (0..181_u32)
+            .map(|beam| format!("{:.3}", range(x, facing + f64::from(beam).to_radians() - FRAC_PI_2)))
+            .collect();
+        if is_mirrored {
+            ranges.reverse();
+        }
+        log += &format!("FLASER 181 {} {x:.3} 0 0 {x:.3} 0 0 {step} h {step}\n", ranges.join(" "));
+    }
+    log
+}
+
+#[test]
+fn a_laser_that_looks_elsewhere_is_doubted() {
+    let facing = |log: &LaserLog| {
+        log.warnings.iter().find_map(|warning| match warning {
+            LogWarning::Facing { seen } => Some(*seen),
+            _ => None,
+        })
+    };
+    assert_eq!(facing(&read(&driving(0.0, false)).unwrap()), None);
+    for turned in [PI, FRAC_PI_2, -FRAC_PI_2, 0.7, -2.4] {
+        let log = driving(turned, false);
+        let seen = facing(&read(&log).unwrap()).unwrap_or_default();
+        assert!(Pose::new(0.0, 0.0, seen - turned).theta.abs() < 0.1, "{seen} is not {turned}");
+        let known = LaserMount { view: None, pose: Some(Pose::new(0.0, 0.0, turned)) };
+        assert_eq!(facing(&LaserLog::read_with(log.as_bytes(), &known).unwrap()), None, "{turned}");
+    }
+    assert_eq!(facing(&read(&driving(0.0, true)).unwrap()), None, "straight ahead, a mirror changes nothing");
+    // A laser that was mounted by eye is not doubted.
+    assert_eq!(facing(&read(&driving(0.1, false)).unwrap()), None);
+}
+
+/// Odometry in feet, or of wheels that are taken for twice as large.
+#[test]
+fn odometry_of_another_length_is_doubted() {
+    for factor in [3.28, 2.0, 0.7] {
+        let scaled = |line: &str| {
+            let mut words: Vec<String> = line.split(' ').map(str::to_owned).collect();
+            if words[0] == "FLASER" {
+                for word in [183, 186] {
+                    words[word] = format!("{:.4}", factor * words[word].parse::<f64>().unwrap());
+                }
+            }
+            words.join(" ") + "\n"
+        };
+        let log: String = driving(0.0, false).lines().map(scaled).collect();
+        let warnings = read(&log).unwrap().warnings;
+        let seen = warnings.iter().find_map(|warning| match warning {
+            LogWarning::OdometryScale { seen } => Some(*seen),
+            _ => None,
+        });
+        assert!(seen.is_some_and(|seen| (0.8..1.25).contains(&(seen * factor))), "{factor}: {warnings:?}");
+    }
+}
+
+/// Between two bare walls, nothing tells ahead from back.
+#[test]
+fn a_bare_corridor_does_not_tell_where_the_laser_looks() {
+    let range = |bearing: f64| (1.2 / bearing.sin().abs()).min(8.0);
+    let scan: Vec<String> =
+        (0..181_u32).map(|beam| format!("{:.3}", range(f64::from(beam).to_radians() - FRAC_PI_2))).collect();
+    let mut log = String::from("PARAM robot_front_laser_max 8 h 0\n");
+    for step in 0..60_u32 {
+        let x = 0.2 * f64::from(step);
+        log += &format!("FLASER 181 {} {x:.3} 0 0 {x:.3} 0 0 {step} h {step}\n", scan.join(" "));
+    }
+    assert!(read(&log).unwrap().is_facing_unclear);
+    assert!(!read(&driving(0.0, false)).unwrap().is_facing_unclear);
+    assert!(!read(&turning(180.0, 181, "")).unwrap().is_facing_unclear, "it hardly drove");
+}
+
+/// A laser that is mounted upside down: its beams come from left to right.
+#[test]
+fn beams_in_the_other_order_are_doubted() {
+    let mirrored: Vec<String> = turning(180.0, 181, "")
+        .lines()
+        .map(|line| {
+            let mut words: Vec<&str> = line.split(' ').collect();
+            words[2..183].reverse();
+            words.join(" ") + "\n"
+        })
+        .collect();
+    assert!(read(&mirrored.concat()).unwrap().warnings.contains(&LogWarning::Mirrored));
 }
 
 /// What the user says of the laser's place counts more than the log.

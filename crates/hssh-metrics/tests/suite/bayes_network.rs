@@ -3,15 +3,15 @@
 use std::collections::BTreeSet;
 
 use hssh_metrics::{
-    BayesNetwork, Covariance, GraphError, Observation, Pose, PoseId, Variable, metrical_log_likelihood,
+    BayesNetwork, Covariance, GraphError, Measurement, Pose, PoseId, Variable, metrical_log_likelihood,
 };
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 
 use crate::random_graph;
 
-fn observation(start: u32, end: u32) -> Observation {
-    Observation {
+fn measurement(start: u32, end: u32) -> Measurement {
+    Measurement {
         start: PoseId(start),
         end: PoseId(end),
         relative_pose: Pose::new(8.0, 0.0, 0.0),
@@ -21,7 +21,7 @@ fn observation(start: u32, end: u32) -> Observation {
 
 /// The square exploration of Figure 4.2, read as a square: the fourth travel comes back.
 fn square() -> BayesNetwork {
-    BayesNetwork::new(4, vec![observation(0, 1), observation(1, 2), observation(2, 3), observation(3, 0)])
+    BayesNetwork::new(4, vec![measurement(0, 1), measurement(1, 2), measurement(2, 3), measurement(3, 0)])
         .unwrap()
 }
 
@@ -41,11 +41,11 @@ fn its_density_is_that_of_the_pose_graph_with_all_constants() {
 }
 
 #[test]
-fn an_observation_depends_on_its_two_poses_and_on_nothing_else() {
+fn a_measurement_depends_on_its_two_poses_and_on_nothing_else() {
     let graph = random_graph(4, 8, 4, 0.1);
     let network = BayesNetwork::from(&graph);
     for (index, edge) in graph.edges().iter().enumerate() {
-        let this = Variable::Observation(index);
+        let this = Variable::Measurement(index);
         let parents = BTreeSet::from([Variable::Pose(edge.from), Variable::Pose(edge.to)]);
         for other in network.variables().filter(|other| *other != this && !parents.contains(other)) {
             assert!(network.are_independent(this, other, &parents), "{this:?} {other:?}");
@@ -67,13 +67,13 @@ fn has_open_trail(
     given: &BTreeSet<Variable>,
 ) -> bool {
     let here = trail[trail.len() - 1];
-    let is_open = trail.len() == 1 || given.contains(&here) == matches!(here, Variable::Observation(_));
+    let is_open = trail.len() == 1 || given.contains(&here) == matches!(here, Variable::Measurement(_));
     if here == goal {
         return true;
     }
     let neighbors = network.arrows().filter_map(|(parent, index)| {
-        let (pose, observation) = (Variable::Pose(parent), Variable::Observation(index));
-        if here == pose { Some(observation) } else { (here == observation).then_some(pose) }
+        let (pose, measurement) = (Variable::Pose(parent), Variable::Measurement(index));
+        if here == pose { Some(measurement) } else { (here == measurement).then_some(pose) }
     });
     is_open
         && neighbors
@@ -103,7 +103,7 @@ fn poses_depend_on_one_another_through_what_was_measured() {
     let network = square();
     let nothing = BTreeSet::new();
     assert!(network.are_independent(pose(0), pose(1), &nothing));
-    let measured: BTreeSet<_> = (0..4).map(Variable::Observation).collect();
+    let measured: BTreeSet<_> = (0..4).map(Variable::Measurement).collect();
     assert!(!network.are_independent(pose(0), pose(2), &measured));
     let sides: BTreeSet<_> = measured.iter().copied().chain([pose(1), pose(3)]).collect();
     assert!(network.are_independent(pose(0), pose(2), &sides), "two opposite corners cut the square");
@@ -118,7 +118,7 @@ fn the_square_exploration_as_text() {
     );
     let dot = network.to_dot();
     assert_eq!(dot.matches("->").count(), 8, "two arrows for each travel");
-    assert_eq!(dot.matches("filled").count(), 5, "four observations and the first pose are known");
+    assert_eq!(dot.matches("filled").count(), 5, "four measurements and the first pose are known");
     for line in ["pi1 [label=\"π1\", style=filled", "pi2 [label=\"π2\"];", "pi4 -> tau4;", "pi1 -> tau4;"] {
         assert!(dot.contains(line), "{line} in {dot}");
     }
@@ -126,7 +126,7 @@ fn the_square_exploration_as_text() {
 
 #[test]
 fn refuses_what_is_no_network() {
-    let error = |poses, observation| BayesNetwork::new(poses, vec![observation]).unwrap_err();
-    assert_eq!(error(2, observation(0, 2)), GraphError::NoSuchPose { pose: PoseId(2), poses: 2 });
-    assert_eq!(error(2, observation(1, 1)), GraphError::Loop(PoseId(1)));
+    let error = |poses, measurement| BayesNetwork::new(poses, vec![measurement]).unwrap_err();
+    assert_eq!(error(2, measurement(0, 2)), GraphError::NoSuchPose { pose: PoseId(2), poses: 2 });
+    assert_eq!(error(2, measurement(1, 1)), GraphError::Loop(PoseId(1)));
 }

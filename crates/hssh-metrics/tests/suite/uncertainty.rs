@@ -114,3 +114,26 @@ fn inverting_twice_gives_the_covariance_back() {
     }
     assert_eq!(UncertainPose::compound([]), Ok(None));
 }
+
+/// What is zero in some direction is the same again when it is written and read, to the last bit, whichever way it rounds.
+#[test]
+fn a_semidefinite_matrix_is_the_same_again() {
+    let mut random = ChaCha8Rng::seed_from_u64(7);
+    for rank in [1, 2] {
+        for _ in 0..2_000 {
+            let mut normal = || -> f64 { StandardNormal.sample(&mut random) };
+            let scale = 10.0_f64.powf(3.0 * normal());
+            let directions = Matrix3::from_fn(|_, column| if column < rank { scale * normal() } else { 0.0 });
+            let singular = directions * directions.transpose();
+            // Two nearly parallel directions are none, or too close to singular.
+            let Ok(once) = Information::semidefinite(0.5 * (singular + singular.transpose())) else {
+                continue;
+            };
+            assert_eq!(Information::semidefinite(*once.matrix()), Ok(once), "{singular}");
+            assert!((once.matrix() - singular).amax() <= 1e-8 * singular.amax(), "{singular}");
+            if rank == 1 {
+                assert_eq!((once.rank(), once.covariance()), (1, None), "{singular}");
+            }
+        }
+    }
+}

@@ -42,6 +42,9 @@ pub struct Stop {
 pub enum Ending {
     /// All that was asked for was done.
     Done,
+    /// As many travels as were allowed were made before all was done; what is left, connections not travelled or places
+    /// of the list not visited.
+    OutOfTravels(usize),
     /// Nobody knows a way on: the robot is at none of the map's places, or not next to the place asked for.
     NoWayOn,
     /// A control law did not apply, or did not end.
@@ -56,6 +59,9 @@ impl fmt::Display for Ending {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Ending::Done => write!(f, "everything that was asked for was done"),
+            Ending::OutOfTravels(left) => {
+                write!(f, "the travels it was allowed are used up, and {left} more were asked for")
+            }
             Ending::Interrupted => write!(f, "the drive was interrupted; its log is that of the way so far"),
             Ending::NoWayOn => write!(f, "no way on is known from where the robot centered itself"),
             Ending::Lost(ControlLaw::Leave { .. }) => write!(f, "the robot did not get out of a place"),

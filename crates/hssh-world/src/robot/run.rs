@@ -122,8 +122,12 @@ impl<'a> Run<'a> {
             plan = Some(next);
         }
         self.arrive()?;
-        self.stop(plan);
-        Ok(())
+        let here = self.stop(plan);
+        let is_done = here.is_some_and(|here| guide.is_done(here));
+        match guide.left(here) {
+            left if left > 0 && !is_done => Err(Ending::OutOfTravels(left)),
+            _ => Ok(()),
+        }
     }
 
     /// In a place, center; in a corridor, follow it, one way or the other.

@@ -111,6 +111,19 @@ impl<'a> Guide<'a> {
         }
     }
 
+    /// How many connections were not travelled yet, or places of the list not visited, the robot having come here last;
+    /// none if no number of travels was asked for.
+    pub(super) fn left(&self, here: Option<PlaceNumber>) -> usize {
+        match &self.strategy {
+            Strategy::Cover => self.graph.connections.len() - self.travelled.len(),
+            Strategy::Wander => 0,
+            Strategy::Visit(list) => {
+                let is_next = here.is_some() && list.get(self.visited).copied() == here;
+                list.len() - self.visited - usize::from(is_next)
+            }
+        }
+    }
+
     /// Whether a connection was not travelled because the robot did not see it.
     fn gave_up(&self) -> bool {
         let is_given_up = |end: (PlaceNumber, Olp)| self.is_hidden(end);

@@ -53,13 +53,11 @@ impl Answer {
     fn account(&self) -> String {
         let (input, search, certificate) = (&self.input, &self.search, &self.certificate);
         let given = if self.readings.is_some() { "given what is taken for misread, " } else { "" };
-        let mut text = format!(
-            "{given}{}: {} ({} of {} travels explained)\n",
-            search.name(),
-            search.stop,
-            input.explained,
-            input.considered
-        );
+        let explained = match input.travels {
+            0 => "one place, and no travel to explain".to_owned(),
+            _ => format!("{} of {} travels explained", input.explained, input.considered),
+        };
+        let mut text = format!("{given}{}: {} ({explained})\n", search.name(), search.stop);
         let found = &search.found;
         let tied = if certificate.proved { "optimal" } else { "share the best rank" };
         let rows = [

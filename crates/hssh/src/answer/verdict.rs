@@ -65,6 +65,11 @@ impl Verdict {
             _ => "them",
         };
         let body = match kind {
+            VerdictKind::OneBest if input.travels == 0 => {
+                "no way from one place to another was travelled, so that there was nothing to decide: one place is the \
+                 whole map."
+                    .to_owned()
+            }
             VerdictKind::NoneYet => format!(
                 "the search stopped before it found a map that explains {what}; the hypotheses that got farthest explain \
                  {} of {}.",

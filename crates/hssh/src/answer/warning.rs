@@ -18,9 +18,12 @@ pub enum WarningKind {
     OdometryJump,
     /// The limit of the laser was taken from its readings.
     RangeLimit,
+    /// Many readings are longer than the limit that the log says.
+    RangeLimitDoubted,
     /// The laser is not at the robot's axis.
     LaserPose,
-    /// The scans do not turn as the odometry does: the laser looks wider or less wide than was taken for granted.
+    /// The scans do not move as the odometry does: the laser looks wider, elsewhere or the other way round than was
+    /// taken for granted.
     LaserView,
     /// Odometry that is possible and hardly meant, such as degrees for radians.
     Questionable,
@@ -83,6 +86,7 @@ impl AnswerWarning {
                 | WarningKind::Lost
                 | WarningKind::NoOdometry
                 | WarningKind::LaserView
+                | WarningKind::RangeLimitDoubted
                 | WarningKind::Questionable
                 | WarningKind::SurveyInterrupted
         )

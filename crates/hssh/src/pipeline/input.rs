@@ -10,7 +10,7 @@ use hssh_local::{
 use super::error::PipelineError;
 use super::options::MappingOptions;
 use super::scans;
-use crate::answer::{AnswerWarning, AnsweredEvidence, AnsweredInput, InputKind};
+use crate::answer::{AnswerWarning, AnsweredEvidence, AnsweredInput, InputKind, WarningKind};
 
 /// What maps are to explain.
 #[derive(Clone, Debug)]
@@ -157,6 +157,12 @@ impl SurveyedLog {
     #[must_use]
     pub fn warnings(&self) -> Vec<AnswerWarning> {
         let mut warnings = scans::warnings(&self.log);
+        // A laser that looks back sees no way out, and then no travel contradicts it.
+        if self.log.is_facing_unclear && self.survey.travels.is_empty() {
+            let sentence = "one place was met along the whole way, and nothing along it tells whether the laser looks ahead, as \
+                            was taken for granted, or back (--laser-pose says so)";
+            warnings.push(AnswerWarning::once(WarningKind::LaserView, sentence.to_owned()));
+        }
         scans::warn_of(&self.survey.warnings, &self.log, &mut warnings);
         warnings
     }

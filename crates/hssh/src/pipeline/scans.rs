@@ -68,10 +68,12 @@ pub(super) fn warnings(log: &LaserLog) -> Vec<AnswerWarning> {
             LogWarning::BreaksOff { line, .. } => (WarningKind::BreaksOff, Some(*line)),
             LogWarning::OddBeams { line, .. } => (WarningKind::BeamsWithoutRange, Some(*line)),
             LogWarning::Jump { line, .. } => (WarningKind::OdometryJump, Some(*line)),
-            LogWarning::RangeLimit { .. } | LogWarning::LimitDoubted { .. } => {
-                (WarningKind::RangeLimit, None)
+            LogWarning::RangeLimit { .. } => (WarningKind::RangeLimit, None),
+            LogWarning::LimitDoubted { .. } => (WarningKind::RangeLimitDoubted, None),
+            LogWarning::OdometryScale { .. } => (WarningKind::Questionable, None),
+            LogWarning::View { .. } | LogWarning::Facing { .. } | LogWarning::Mirrored => {
+                (WarningKind::LaserView, None)
             }
-            LogWarning::View { .. } => (WarningKind::LaserView, None),
             LogWarning::LaserPose { .. } => (WarningKind::LaserPose, None),
         };
         match line {

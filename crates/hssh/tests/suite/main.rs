@@ -3,6 +3,7 @@
 
 mod causal;
 mod common;
+mod faults;
 mod graph;
 mod kinds;
 mod log;

@@ -66,6 +66,29 @@ fn scans_are_counted_among_all(log: &str, explored: &serde_json::Value) {
     }
 }
 
+/// A drive that was cut short says so, in words and by its exit code: `--travels` is a limit like any other.
+#[test]
+fn a_drive_that_is_not_done_says_so() {
+    let log =
+        std::env::temp_dir().join(format!("hssh-short-{}.log", std::process::id())).display().to_string();
+    let drive = |options: &[&str]| {
+        let output = hssh(&[&["simulate", "--floor", "ring", "-o", &log], options].concat());
+        (output.status.code(), String::from_utf8_lossy(&output.stdout).into_owned())
+    };
+    let (code, said) = drive(&["--travels", "2"]);
+    assert!(code == Some(3) && said.contains("are used up, and 2 more were asked for"), "{said}");
+    let (code, said) = drive(&["--travels", "1", "--visit", "0,1,0,3"]);
+    assert!(code == Some(3) && said.contains("are used up, and 2 more were asked for"), "{said}");
+    // What the last travel completes is done, and to wander is never more than that.
+    for done in
+        [&["--travels", "4"][..], &["--travels", "2", "--visit", "0,1,0"], &["--travels", "2", "--wander"]]
+    {
+        let (code, said) = drive(done);
+        assert!(code == Some(0) && said.contains("everything that was asked for was done"), "{said}");
+    }
+    let _ = std::fs::remove_file(log);
+}
+
 #[test]
 fn what_cannot_be_driven_through_is_said() {
     let refusal = |arguments: &[&str]| {

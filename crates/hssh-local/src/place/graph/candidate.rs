@@ -2,7 +2,7 @@
 
 use super::bend::bends;
 use crate::place::PlaceOptions;
-use crate::skeleton::{AxisPoint, EdgeId, NodeId, Skeleton, Tip, distance, length};
+use crate::skeleton::{AxisPoint, Skeleton, SkeletonEdgeId, SkeletonNodeId, Tip, distance, length};
 
 /// What may be a place, before it is known how its gateways lie.
 pub(super) struct Candidate {
@@ -38,7 +38,7 @@ impl Candidates {
             found.add_nodes(skeleton, &members);
         }
         for (index, length) in lengths.iter().enumerate() {
-            found.add_edge(skeleton, EdgeId(index as u32), *length, options);
+            found.add_edge(skeleton, SkeletonEdgeId(index as u32), *length, options);
         }
         found
     }
@@ -59,7 +59,7 @@ impl Candidates {
 
     /// Makes candidates of the corners of an edge, and sees whether the edge lies inside one place: it
     /// then leads from there to there and is too short to go around more than something in its middle.
-    fn add_edge(&mut self, skeleton: &Skeleton, id: EdgeId, length: f64, options: &PlaceOptions) {
+    fn add_edge(&mut self, skeleton: &Skeleton, id: SkeletonEdgeId, length: f64, options: &PlaceOptions) {
         let edge = skeleton.edge(id);
         let [from, to] = edge.nodes.map(|node| self.at_node[node.index()]);
         let room = |place: Option<usize>| place.map_or(0.0, |place| self.all[place].center.clearance);
@@ -85,7 +85,7 @@ impl Candidates {
 fn groups(skeleton: &Skeleton, lengths: &[f64], options: &PlaceOptions) -> Vec<usize> {
     let mut group: Vec<usize> = (0..skeleton.nodes.len()).collect();
     for (edge, &length) in skeleton.edges.iter().zip(lengths) {
-        let is_junction = |node: NodeId| skeleton.node(node).tip.is_none();
+        let is_junction = |node: SkeletonNodeId| skeleton.node(node).tip.is_none();
         let room = edge.nodes.map(|node| skeleton.node(node).at.clearance).into_iter().fold(0.0, f64::max);
         if !edge.nodes.into_iter().all(is_junction) || length > options.one_place * room {
             continue;

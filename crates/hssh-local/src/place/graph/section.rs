@@ -1,11 +1,11 @@
 //! Sections: the parts of the medial axis between neighboring candidates.
 
 use super::candidate::Candidates;
-use crate::skeleton::{AxisPoint, EdgeId, Skeleton};
+use crate::skeleton::{AxisPoint, Skeleton, SkeletonEdgeId};
 
 /// A part of an edge between two candidates, or between one and an open tip.
 pub(super) struct Section {
-    pub(super) edge: EdgeId,
+    pub(super) edge: SkeletonEdgeId,
     /// The positions of its first and last point in the points of the edge.
     pub(super) range: [usize; 2],
     /// The candidate at its first and at its last point; none at an open tip.
@@ -55,7 +55,11 @@ pub(super) fn sections(skeleton: &Skeleton, candidates: &Candidates) -> Vec<Sect
         stops.push((edge.points.len() - 1, end));
         for pair in stops.windows(2) {
             let [(first, from), (last, to)] = [pair[0], pair[1]];
-            sections.push(Section { edge: EdgeId(index as u32), range: [first, last], ends: [from, to] });
+            sections.push(Section {
+                edge: SkeletonEdgeId(index as u32),
+                range: [first, last],
+                ends: [from, to],
+            });
         }
     }
     sections

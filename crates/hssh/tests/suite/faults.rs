@@ -1,0 +1,212 @@
+//! Inputs as users have them, with what is wrong in them, and what is right to say: a table that `cargo xtask faults` prints.
+//!
+//! Each is a neighbor of a fault that users of such programs reported: a mark before the first record, another unit, a laser
+//! that is mounted otherwise.
+
+use std::fmt::Write as _;
+
+use super::common::{hssh, root, scratch, text};
+
+/// What is to come of an input.
+struct Fault {
+    /// What is wrong with it, or with what is asked.
+    case: &'static str,
+    /// The arguments, `FILE` being the input.
+    arguments: &'static str,
+    input: Vec<u8>,
+    exit: i32,
+    /// What the first line has to contain, of standard output or, with exit 2, of standard error.
+    says: &'static str,
+}
+
+fn fault(
+    case: &'static str,
+    arguments: &'static str,
+    input: impl Into<Vec<u8>>,
+    exit: i32,
+    says: &'static str,
+) -> Fault {
+    Fault { case, arguments, input: input.into(), exit, says }
+}
+
+/// The lines with something done to the words of each.
+fn edited(log: &str, mut edit: impl FnMut(&mut Vec<String>)) -> String {
+    let line = |line: &str| {
+        let mut words: Vec<String> = line.split(' ').map(str::to_owned).collect();
+        edit(&mut words);
+        words.join(" ") + "\n"
+    };
+    log.lines().map(line).collect()
+}
+
+/// The log with other raw odometry.
+fn driven(log: &str, mut change: impl FnMut([f64; 3]) -> [f64; 3]) -> String {
+    edited(log, |words| {
+        let first = match words[0].as_str() {
+            "FLASER" => 186,
+            "ODOM" => 1,
+            _ => return,
+        };
+        let pose = [0, 1, 2].map(|offset| words[first + offset].parse().unwrap());
+        for (offset, number) in change(pose).into_iter().enumerate() {
+            words[first + offset] = format!("{number:.5}");
+        }
+    })
+}
+
+/// The log with other beams: those of each scan, from right to left.
+fn seen(log: &str, mut change: impl FnMut(Vec<String>) -> Vec<String>) -> String {
+    edited(log, |words| {
+        if words[0] == "FLASER" {
+            let beams = change(words.splice(2..183, []).collect());
+            words[1] = beams.len().to_string();
+            words.splice(2..2, beams);
+        }
+    })
+}
+
+fn graphs() -> Vec<Fault> {
+    let read = |name: &str| std::fs::read_to_string(root().join("fixtures/graphs").join(name)).unwrap();
+    let (laps, toro) = (read("two-laps.g2o"), read("two-laps-toro.graph"));
+    let whole = "33 poses, 37 edges, of which 5 close loops";
+    let unknown = laps.clone() + "EDGE_SE2_WHATEVER 0 5 1 0 0 1 0 0 1 0 1\n";
+    let offset = laps.clone() + "EDGE_SE2_OFFSET 0 5 0 0 1 0 0 1 0 0 1 0 1\n";
+    vec![
+        fault("mark before TORO", "graph FILE", format!("\u{feff}{toro}"), 0, whole),
+        fault("CR line ends", "graph FILE", laps.replace('\n', "\r\n"), 0, whole),
+        fault("records in lower case", "graph FILE", laps.to_lowercase(), 0, whole),
+        fault("an edge of no known kind", "graph FILE", unknown.clone(), 0, "PARTIAL: 1 record"),
+        fault("the same, strictly", "graph FILE --strict", unknown, 2, "EDGE_SE2_WHATEVER"),
+        fault("an edge between sensors", "graph FILE", offset, 0, "PARTIAL: 1 record"),
+        fault("two fixed poses", "graph FILE", laps + "FIX 5\nFIX 0\n", 0, "poses 0, 5 fixed by the file"),
+        fault("packed by bzip2", "graph FILE", &b"BZh91AY&SY\x01\x02\x03"[..], 2, "compressed by bzip2"),
+    ]
+}
+
+fn logs(ring: &str) -> Vec<Fault> {
+    let map = "map FILE --planar";
+    let limit = "PARAM robot_front_laser_max 30.00";
+    let right = "proved the best map (4 of 4 travels explained)";
+    let scaled = |factor: f64| driven(ring, |[x, y, theta]| [factor * x, factor * y, theta]);
+    let times = |factor: f64| {
+        let longer = |word: String| (factor * word.parse::<f64>().unwrap()).to_string();
+        seen(ring, |beams| beams.into_iter().map(longer).collect())
+    };
+    let mirrored = |mut beams: Vec<String>| {
+        beams.reverse();
+        beams
+    };
+    let right_half = seen(ring, |beams| beams[..91].to_vec());
+    let aside = format!("PARAM laser_front_laser_fov 90 h 0\n{right_half}");
+    let odd = |word: &'static str| {
+        seen(ring, move |mut beams| {
+            beams[97] = word.to_owned();
+            beams
+        })
+    };
+    let mut scans = 0;
+    let cut = edited(ring, |words| {
+        scans += usize::from(words[0] == "FLASER");
+        if words[0] == "FLASER" && scans % 3 == 0 {
+            words[1] = "90".to_owned();
+        }
+    });
+    let lower = ring.replace("FLASER", "flaser").replace("ODOM", "odom");
+    let unlimited = ring.lines().skip(1).map(|line| format!("{line}\n")).collect::<String>();
+    let late = format!("{unlimited}{limit} nohost 0\n");
+    let half = &ring.as_bytes()[..ring.len() / 3];
+    vec![
+        fault("messages in lower case", map, lower, 0, right),
+        fault("no limit of range", map, unlimited, 0, right),
+        fault("the limit at the end", map, late, 0, right),
+        fault(
+            "a limit of centimetres",
+            map,
+            ring.replace(limit, "PARAM robot_front_laser_max 3000"),
+            0,
+            right,
+        ),
+        fault(
+            "a limit far too short",
+            map,
+            ring.replace(limit, "PARAM robot_front_laser_max 3"),
+            0,
+            "DOUBTFUL",
+        ),
+        fault("ranges in centimetres", map, times(100.0), 2, "hardly anything came back"),
+        fault("ranges in millimetres", map, times(1000.0), 2, "millimetres"),
+        fault("a word among the beams", map, odd("abc"), 0, right),
+        fault("-1.#IND among the beams", map, odd("-1.#IND"), 0, right),
+        fault("beams missing in a third", map, cut, 0, "PARTIAL: 178 of 536 scans"),
+        fault("broken off", map, half, 0, "PARTIAL: line"),
+        fault("upside down", map, seen(ring, mirrored), 0, "DOUBTFUL: the walls turn with the robot"),
+        fault("looks to the right", map, aside.clone(), 0, "DOUBTFUL: the walls do not come"),
+        fault("the same, told", "map FILE --planar --laser-pose=0,0,-45", aside, 0, right),
+        fault("a view too wide", "map FILE --planar --fov 270", ring, 0, "DOUBTFUL: the walls do not turn"),
+        fault(
+            "looks back",
+            map,
+            driven(ring, |[x, y, theta]| [-x, -y, theta]),
+            0,
+            "DOUBTFUL: the walls do not come",
+        ),
+        fault("x and y exchanged", map, driven(ring, |[x, y, theta]| [y, x, theta]), 0, "DOUBTFUL"),
+        fault("turns to the other side", map, driven(ring, |[x, y, theta]| [x, y, -theta]), 0, "DOUBTFUL"),
+        fault(
+            "turns in degrees",
+            map,
+            driven(ring, |[x, y, theta]| [x, y, theta.to_degrees()]),
+            0,
+            "DOUBTFUL",
+        ),
+        fault("odometry in feet", map, scaled(3.28), 0, "DOUBTFUL: the walls come toward"),
+        fault("wheels of twice the size", map, scaled(2.0), 0, "DOUBTFUL: the walls come toward"),
+        fault("wheels of half the size", map, scaled(0.5), 0, "DOUBTFUL: the walls come toward"),
+        fault("odometry in millimetres", map, scaled(1000.0), 0, "DOUBTFUL"),
+        fault("no odometry", map, driven(ring, |_| [0.0; 3]), 0, "DOUBTFUL: the log has no odometry"),
+    ]
+}
+
+fn maps() -> Vec<Fault> {
+    let floor = root().join("fixtures/grids/floor.png");
+    let yaml = |resolution: &str, rest: &str| {
+        format!(
+            "image: {}\nresolution: {resolution}\norigin: [0, 0, 0]\noccupied_thresh: 0.65\nfree_thresh: 0.196\n{rest}",
+            floor.display()
+        )
+    };
+    vec![
+        fault("negate in a word", "stars FILE", yaml("0.1", "negate: false\n"), 0, "2 regions, 5 places"),
+        fault("negate of two", "stars FILE", yaml("0.1", "negate: 2\n"), 2, "negate"),
+        fault("a resolution of none", "stars FILE", yaml("0", "negate: 0\n"), 2, "resolution"),
+        fault("a resolution of .nan", "stars FILE", yaml(".nan", "negate: 0\n"), 2, "resolution"),
+        fault("a cell of a kilometre", "stars FILE", yaml("1e3", "negate: 0\n"), 2, "from 0.001 to 100"),
+    ]
+}
+
+/// Prints the table, and every line of it is right.
+#[test]
+fn what_is_wrong_with_an_input_is_said_first() {
+    let log = scratch("faults").join("ring.log");
+    let name = log.to_string_lossy().into_owned();
+    assert_eq!(hssh(&["simulate", "--floor", "ring", "-o", &name]).status.code(), Some(0));
+    let ring = std::fs::read_to_string(&log).unwrap();
+    let mut wrong = String::new();
+    for (index, fault) in graphs().into_iter().chain(logs(&ring)).chain(maps()).enumerate() {
+        let file = scratch("faults").join(format!("{index}.input"));
+        std::fs::write(&file, &fault.input).unwrap();
+        let file = file.to_string_lossy().into_owned();
+        let arguments: Vec<&str> =
+            fault.arguments.split(' ').map(|word| if word == "FILE" { &file } else { word }).collect();
+        let output = hssh(&arguments);
+        let said = text(if fault.exit == 2 { &output.stderr } else { &output.stdout });
+        let first = said.lines().next().unwrap_or_default();
+        let is_right = output.status.code() == Some(fault.exit) && first.contains(fault.says);
+        let told: String = first.replace(&file, "FILE").chars().take(80).collect();
+        println!("{:<26} {:<6} {told}", fault.case, if is_right { "right" } else { "WRONG" });
+        if !is_right {
+            let _ = writeln!(wrong, "{}: {:?}: {first}", fault.case, output.status.code());
+        }
+    }
+    assert!(wrong.is_empty(), "{wrong}");
+}
