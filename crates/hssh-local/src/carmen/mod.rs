@@ -23,4 +23,5 @@ pub use error::{LogError, LogWarning, MessageProblem};
 pub use log::{LaserLog, LoggedScan};
 pub use message::{LaserMessage, Message};
 pub use mount::LaserMount;
+pub(crate) use raw::{Moment, RawLog, RawScan, came_back};
 pub use reader::LogReader;

@@ -9,35 +9,37 @@ use super::message::{LaserMessage, Message};
 
 /// All messages of a log.
 #[derive(Default)]
-pub(super) struct RawLog {
+pub(crate) struct RawLog {
+    /// Whether it has lines.
+    pub(crate) is_text: bool,
     /// The scans in order.
-    pub(super) scans: Vec<RawScan>,
+    pub(crate) scans: Vec<RawScan>,
     /// All raw odometry in order, that of the scans included.
-    pub(super) trajectory: Vec<Moment>,
+    pub(crate) trajectory: Vec<Moment>,
     /// The last value of each parameter that is a finite number.
-    pub(super) parameters: BTreeMap<String, f64>,
+    pub(crate) parameters: BTreeMap<String, f64>,
     /// How many messages of kinds that are not read, by kind.
-    pub(super) skipped: BTreeMap<String, u64>,
+    pub(crate) skipped: BTreeMap<String, u64>,
 }
 
 /// A scan as its message tells it.
-pub(super) struct RawScan {
-    pub(super) ranges: Vec<f64>,
-    pub(super) odd_beams: usize,
-    pub(super) odd_word: Option<String>,
+pub(crate) struct RawScan {
+    pub(crate) ranges: Vec<f64>,
+    pub(crate) odd_beams: usize,
+    pub(crate) odd_word: Option<String>,
     /// The first of the two poses in the message.
-    pub(super) corrected: Pose,
+    pub(crate) corrected: Pose,
     /// Its own position in the trajectory.
-    pub(super) moment: usize,
-    pub(super) line: u64,
-    pub(super) time: Option<f64>,
+    pub(crate) moment: usize,
+    pub(crate) line: u64,
+    pub(crate) time: Option<f64>,
 }
 
 /// A pose of raw odometry, and the line that has it.
 #[derive(Clone, Copy)]
-pub(super) struct Moment {
-    pub(super) pose: Pose,
-    pub(super) line: u64,
+pub(crate) struct Moment {
+    pub(crate) pose: Pose,
+    pub(crate) line: u64,
 }
 
 impl RawLog {
@@ -108,4 +110,10 @@ impl RawLog {
         let messages = if kinds.is_empty() { "no message".to_owned() } else { kinds.join(", ") };
         LogError::NoScans { lines, messages, first_warning: warnings.into_iter().next() }
     }
+}
+
+/// Ranges with what did not come back as infinite, which is what is not shorter than the limit, or no length.
+pub(crate) fn came_back(ranges: Vec<f64>, limit: f64) -> Vec<f64> {
+    let told = |range: f64| if range > 0.0 && range < limit { range } else { f64::INFINITY };
+    ranges.into_iter().map(told).collect()
 }

@@ -12,6 +12,7 @@ use crate::failure::Failure;
 
 pub(crate) use local::{
     ExploreArguments, ExportKind, LaserArguments, PlaceArguments, SimulateArguments, StarsArguments,
+    TopicArguments,
 };
 pub(crate) use search::SearchArguments;
 
@@ -131,8 +132,10 @@ pub(crate) struct VerifyArguments {
 
 #[derive(Debug, Args)]
 pub(crate) struct CheckArguments {
-    /// The exploration, a RON file; `-` reads standard input.
+    /// The exploration, a RON file, or a bag; `-` reads standard input.
     pub(crate) file: PathBuf,
+    #[command(flatten)]
+    pub(crate) topics: TopicArguments,
     /// Print also its causal schemas ⟨view, action, view⟩, and whether equal views can be one state.
     #[arg(long)]
     pub(crate) schemas: bool,

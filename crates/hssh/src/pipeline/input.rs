@@ -183,8 +183,14 @@ impl SurveyedLog {
                 LogWarning::LimitDoubted { .. } => (WarningKind::RangeLimit, None),
                 LogWarning::View { .. } => (WarningKind::LaserView, None),
                 LogWarning::LaserPose { .. } => (WarningKind::LaserPose, None),
+                LogWarning::Remark { .. } => (WarningKind::Recording, None),
+                LogWarning::ScansAlone => (WarningKind::NoOdometry, None),
             };
             match line {
+                Some(scan) if matches!(warning, LogWarning::Jump { is_text: false, .. }) => {
+                    let spot = Spot::Scan(scan.saturating_sub(1));
+                    AnswerWarning::record(&mut warnings, kind, spot, || warning.to_string());
+                }
                 Some(line) => {
                     AnswerWarning::record(&mut warnings, kind, Spot::Line(line), || warning.to_string());
                 }
