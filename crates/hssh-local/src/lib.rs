@@ -41,7 +41,8 @@ mod skeleton;
 mod survey;
 
 pub use carmen::{
-    LaserLog, LaserMessage, LaserMount, LogError, LogReader, LogWarning, LoggedScan, Message, MessageProblem,
+    LaserKind, LaserLog, LaserMessage, LaserMount, LaserView, LogError, LogReader, LogWarning, LoggedScan,
+    Message, MessageProblem,
 };
 pub use closing::{ClosedTrack, ClosingError, ClosingOptions, Closure, close_loops};
 pub use distance::DistanceField;

@@ -69,16 +69,17 @@ impl LaserLog {
         if raw.scans.is_empty() {
             return Err(raw.why_useless(lines, warnings));
         }
+        raw.keep_best_kind();
         raw.keep_usual_scans(&mut warnings);
         raw.tell_odd_beams(&mut warnings);
-        let (view, is_told) = raw.view(known);
+        let (view, turn, is_told) = raw.view(known);
         raw.check_view(view, is_told, &mut warnings);
         raw.move_to_laser(known, &mut warnings);
         raw.bridge_jumps(&mut warnings);
         let max_range = raw.limit(&mut warnings)?;
         warnings.sort_by_key(LogWarning::line);
         let logged = |scan: RawScan| LoggedScan {
-            scan: Scan { ranges: raw::came_back(scan.ranges, max_range), view, turn: 0.0 },
+            scan: Scan { ranges: raw::came_back(scan.ranges, max_range), view, turn },
             odometry: raw.trajectory[scan.moment].pose,
             moment: scan.moment,
             corrected: scan.corrected,

@@ -1,11 +1,11 @@
 //! A log as its messages tell it, before anything is made of it that concerns the log as a whole.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use hssh_metrics::Pose;
 
 use super::error::{LogError, LogWarning, MessageProblem};
-use super::message::{LaserMessage, Message};
+use super::message::{LaserKind, LaserMessage, LaserView, Message};
 
 /// All messages of a log.
 #[derive(Default)]
@@ -24,6 +24,9 @@ pub(crate) struct RawLog {
 
 /// A scan as its message tells it.
 pub(crate) struct RawScan {
+    pub(crate) kind: LaserKind,
+    /// How its laser looks, if the message says so.
+    pub(crate) looks: Option<LaserView>,
     pub(crate) ranges: Vec<f64>,
     pub(crate) odd_beams: usize,
     pub(crate) odd_word: Option<String>,
@@ -46,10 +49,24 @@ impl RawLog {
     pub(super) fn add(&mut self, message: Message, line: u64) {
         match message {
             Message::Laser(laser) => {
-                let LaserMessage { ranges, odd_beams, odd_word, corrected, odometry, time } = laser;
+                let LaserMessage { kind, looks, ranges, odd_beams, odd_word, corrected, odometry, time } =
+                    laser;
+                let last = self.trajectory.last().map_or(Pose::IDENTITY, |last| last.pose);
+                let (corrected, pose) =
+                    if kind == LaserKind::Raw { (last, last) } else { (corrected, odometry) };
                 let moment = self.trajectory.len();
-                self.trajectory.push(Moment { pose: odometry, line });
-                self.scans.push(RawScan { ranges, odd_beams, odd_word, corrected, moment, line, time });
+                self.trajectory.push(Moment { pose, line });
+                self.scans.push(RawScan {
+                    kind,
+                    looks,
+                    ranges,
+                    odd_beams,
+                    odd_word,
+                    corrected,
+                    moment,
+                    line,
+                    time,
+                });
             }
             Message::Odometry(pose) => self.trajectory.push(Moment { pose, line }),
             Message::Parameter { name, value } => {
@@ -64,6 +81,34 @@ impl RawLog {
     /// The value of a parameter.
     pub(super) fn parameter(&self, name: &str) -> Option<f64> {
         self.parameters.get(name).copied()
+    }
+
+    /// Of messages that tell the same scans, or those of other lasers, the most useful kind is kept.
+    pub(super) fn keep_best_kind(&mut self) {
+        let best = self.scans.iter().map(|scan| scan.kind).max();
+        let others = self.scans.iter().filter(|scan| Some(scan.kind) != best);
+        for scan in others {
+            let name = match scan.kind {
+                LaserKind::Rear => "RLASER",
+                LaserKind::Raw => "RAWLASER1",
+                LaserKind::Robot => "ROBOTLASER1",
+                LaserKind::Front => "FLASER",
+            };
+            *self.skipped.entry(name.to_owned()).or_default() += 1;
+        }
+        let gone: BTreeSet<usize> =
+            self.scans.iter().filter(|scan| Some(scan.kind) != best).map(|scan| scan.moment).collect();
+        if gone.is_empty() {
+            return;
+        }
+        // What is not read says nothing of the way either.
+        self.scans.retain(|scan| Some(scan.kind) == best);
+        for scan in &mut self.scans {
+            scan.moment -= gone.range(..scan.moment).count();
+        }
+        let trajectory = std::mem::take(&mut self.trajectory);
+        let kept = trajectory.into_iter().enumerate().filter(|(moment, _)| !gone.contains(moment));
+        self.trajectory = kept.map(|(_, moment)| moment).collect();
     }
 
     /// Leaves out scans with another number of beams than most.

@@ -4,7 +4,9 @@ use std::collections::BTreeMap;
 
 use hssh_metrics::Pose;
 
-use crate::carmen::{LaserLog, LogError, LogWarning, LoggedScan, Moment, RawLog, RawScan, came_back};
+use crate::carmen::{
+    LaserKind, LaserLog, LogError, LogWarning, LoggedScan, Moment, RawLog, RawScan, came_back,
+};
 use crate::matching::{TimedScan, odometry_from_scans};
 use crate::scan::Scan;
 
@@ -112,6 +114,8 @@ fn merged(scans: Vec<RecordedScan>, odometry: &[TimedPose]) -> (Vec<(f64, f64)>,
         raw.trajectory.push(moment(pose));
         geometry.push((scan.view, scan.turn));
         raw.scans.push(RawScan {
+            kind: LaserKind::Front,
+            looks: None,
             ranges: scan.ranges,
             odd_beams: 0,
             odd_word: None,

@@ -164,7 +164,7 @@ impl SurveyedLog {
     /// The lines with scans that cannot be used.
     fn unusable(&self) -> impl Iterator<Item = u64> + '_ {
         self.log.warnings.iter().filter_map(|warning| match warning {
-            LogWarning::Message { line, kind, .. } if kind == "FLASER" => Some(*line),
+            LogWarning::Message { line, kind, .. } if kind.contains("LASER") => Some(*line),
             _ => None,
         })
     }
