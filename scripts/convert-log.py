@@ -6,6 +6,8 @@
 writes FOLDER/mcap, FOLDER/mcap-file, FOLDER/db3, FOLDER/db3-file, FOLDER/db3-message (ROS 2) and FOLDER/none.bag, bz2.bag,
 lz4.bag (ROS 1). What `hssh map` answers to each is what it answers to the log; scripts/compare-bags.sh says whether it is.
 
+A third argument adds so many messages of 1 MB of a camera, to MCAP, db3 and an unpacked .bag alone.
+
 A scan goes with the odometry of its own message, with the same stamp; odometry between two scans is stamped evenly
 between them, so that the order of the log is that of the stamps whatever clock the log has.
 """
@@ -104,10 +106,26 @@ def typed(store, messages, is_ros1):
             yield "/scan", "sensor_msgs/msg/LaserScan", stamp, scan
 
 
-def write(writer, store, messages, is_ros1):
+def padded(told, store, count, padding, is_ros1):
+    """The messages, with so many images of 1 MB between them."""
+    rest = np.random.default_rng(1).integers(0, 256, 1 << 20, dtype=np.uint8)
+    written = 0
+    for number, (topic, kind, stamp, message) in enumerate(told):
+        yield topic, kind, stamp, message
+        while written * count < padding * number:
+            written += 1
+            header = store.types["std_msgs/msg/Header"](
+                stamp=store.types["builtin_interfaces/msg/Time"](sec=0, nanosec=0), frame_id="camera", **({"seq": 0} if is_ros1 else {})
+            )
+            image = store.types["sensor_msgs/msg/CompressedImage"](header=header, format="none", data=rest)
+            yield "/camera", "sensor_msgs/msg/CompressedImage", stamp, image
+
+
+def write(writer, store, messages, is_ros1, padding):
     with writer:
         connections = {}
-        for topic, kind, stamp, message in typed(store, messages, is_ros1):
+        told = typed(store, messages, is_ros1)
+        for topic, kind, stamp, message in padded(told, store, len(messages), padding, is_ros1):
             if topic not in connections:
                 connections[topic] = writer.add_connection(topic, kind, typestore=store)
             serialize = store.serialize_ros1 if is_ros1 else store.serialize_cdr
@@ -118,8 +136,7 @@ def main():
     log, folder = Path(sys.argv[1]), Path(sys.argv[2])
     folder.mkdir(parents=True, exist_ok=True)
     messages = read(log)
-    if len(sys.argv) > 3:
-        messages = messages[: int(sys.argv[3])]
+    padding = int(sys.argv[3]) if len(sys.argv) > 3 else 0
     ros2 = get_typestore(Stores.ROS2_HUMBLE)
     kinds = {
         "mcap": (StoragePlugin.MCAP, None),
@@ -129,17 +146,19 @@ def main():
         "db3-message": (StoragePlugin.SQLITE3, CompressionMode.MESSAGE),
     }
     for name, (plugin, mode) in kinds.items():
+        if padding and mode:
+            continue
         writer = Writer2(folder / name, version=9, storage_plugin=plugin)
         if mode:
             writer.set_compression(mode, CompressionFormat.ZSTD)
-        write(writer, ros2, messages, False)
+        write(writer, ros2, messages, False, padding)
     ros1 = get_typestore(Stores.ROS1_NOETIC)
     ros1.register(get_types_from_msg("geometry_msgs/TransformStamped[] transforms", "tf2_msgs/msg/TFMessage"))
-    for name in ["none", "bz2", "lz4"]:
+    for name in ["none"] if padding else ["none", "bz2", "lz4"]:
         writer = Writer1(folder / f"{name}.bag")
         if name != "none":
             writer.set_compression(Writer1.CompressionFormat[name.upper()])
-        write(writer, ros1, messages, True)
+        write(writer, ros1, messages, True, padding)
 
 
 main()
