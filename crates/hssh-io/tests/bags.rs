@@ -100,7 +100,7 @@ fn what_is_doubtful_is_told() {
     assert!(warnings(&log).contains("two clocks, 5000.0 s apart: the times of recording are used instead"));
     assert!(off_walls(&log) < 1e-3);
     let log = read("backwards");
-    assert!(warnings(&log).contains("time runs backwards by 59.0 s at scan 4"), "{}", warnings(&log));
+    assert!(warnings(&log).contains("time runs backwards by 59.5 s at scan 4"), "{}", warnings(&log));
     assert!(off_walls(&log) < 1e-3);
     assert!(warnings(&read("no-mount")).contains("--laser-pose"));
 }

@@ -197,7 +197,11 @@ impl SurveyedLog {
                 None => warnings.push(AnswerWarning::once(kind, warning.to_string())),
             }
         }
+        let is_told = self.log.warnings.contains(&LogWarning::ScansAlone);
         for warning in &self.survey.warnings {
+            if is_told && matches!(warning, SurveyWarning::NoOdometry) {
+                continue;
+            }
             let (kind, scan) = match *warning {
                 SurveyWarning::Contradicted { scan, .. } => (WarningKind::ContradictedReturn, scan),
                 SurveyWarning::Unconfirmed { scan, .. } => (WarningKind::UnconfirmedReturn, scan),
