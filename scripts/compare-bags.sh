@@ -21,6 +21,6 @@ answer "$log" >log.json
 differ=0
 for bag in "$folder"/*; do
     answer "$bag" >bag.json
-    if cmp -s log.json bag.json; then echo "same: $bag"; else echo "differs: $bag"; differ=1; fi
+    if cmp -s log.json bag.json; then echo "same: $bag"; else echo "differs: $bag"; diff log.json bag.json | head -8 || true; differ=1; fi
 done
 exit $differ
