@@ -11,12 +11,13 @@ use crate::root;
 ///
 /// The layers follow the SSH: control and causal below topological, metrical beside it, search above.
 /// Dev-dependencies are free; `hssh-oracle` may be nothing else.
-const LAYERS: [(&str, &[&str]); 12] = [
+const LAYERS: [(&str, &[&str]); 13] = [
     ("hssh-topology", &[]),
     ("hssh-causal", &["hssh-topology"]),
     ("hssh-verify", &["hssh-causal", "hssh-topology"]),
     ("hssh-metrics", &[]),
     ("hssh-local", &["hssh-causal", "hssh-topology", "hssh-metrics"]),
+    ("hssh-io", &["hssh-metrics", "hssh-local"]),
     ("hssh-search", &["hssh-causal", "hssh-topology", "hssh-metrics"]),
     ("hssh-world", &["hssh-causal", "hssh-topology", "hssh-metrics", "hssh-local"]),
     ("hssh-draw", &["hssh-topology", "hssh-metrics", "hssh-local", "hssh-search"]),
@@ -29,6 +30,7 @@ const LAYERS: [(&str, &[&str]); 12] = [
             "hssh-verify",
             "hssh-metrics",
             "hssh-local",
+            "hssh-io",
             "hssh-search",
             "hssh-world",
             "hssh-draw",
@@ -42,6 +44,7 @@ const LAYERS: [(&str, &[&str]); 12] = [
             "hssh-verify",
             "hssh-metrics",
             "hssh-local",
+            "hssh-io",
             "hssh-search",
             "hssh-world",
             "hssh-draw",

@@ -32,6 +32,7 @@ mod map_server;
 mod matching;
 mod place;
 mod progress;
+mod recording;
 mod region;
 mod roadmap;
 mod route;
@@ -40,7 +41,8 @@ mod skeleton;
 mod survey;
 
 pub use carmen::{
-    LaserLog, LaserMessage, LaserMount, LogError, LogReader, LogWarning, LoggedScan, Message, MessageProblem,
+    LaserKind, LaserLog, LaserMessage, LaserMount, LaserView, LogError, LogReader, LogWarning, LoggedScan,
+    Message, MessageProblem,
 };
 pub use closing::{ClosedTrack, ClosingError, ClosingOptions, Closure, close_loops};
 pub use distance::DistanceField;
@@ -50,13 +52,17 @@ pub use local_map::{LocalMap, LocalMapOptions};
 pub use map_server::{
     MapError, encode_png, read_floor_plan, read_map, read_map_with_remarks, write_map, write_png,
 };
-pub use matching::{LaserTurn, MatchOptions, MotionNoise, Slip, Track, TrackedScan, Tracker, track};
+pub use matching::{
+    LaserTurn, MatchOptions, MotionNoise, Slip, TimedScan, Track, TrackedScan, Tracker, odometry_from_scans,
+    track,
+};
 pub use place::{
     DoorOptions, Gateway, GatewayOptions, GridPlace, LocalStar, Neighborhood, NeighborhoodError, OpenEnd,
     PlaceConnection, PlaceGraph, PlaceGraphError, PlaceKind, PlaceNumber, PlaceOptions, Sighting, doors,
     hidden_area, neighborhood, sight,
 };
 pub use progress::Reply;
+pub use recording::{RecordedScan, Recording, TimedPose};
 pub use region::{
     CutOptions, DoorwayOptions, KindOptions, Outline, Passage, Region, RegionKind, RegionMap, RegionNumber,
     RegionOptions,

@@ -99,6 +99,14 @@ pub(crate) enum Failure {
     TooLarge(#[from] hssh_local::LatticeError),
     #[error("cannot use {}: {error}\nhelp: give the path of a CARMEN log with FLASER messages, plain or gzip, or - for standard input", file.display())]
     ReadLog { file: PathBuf, error: Box<hssh_local::LogError> },
+    #[error("cannot use {}: {error}", file.display())]
+    ReadTable { file: PathBuf, error: Box<hssh_io::TableError> },
+    #[cfg(feature = "bags")]
+    #[error("cannot use {}: {error}\nhelp: `hssh check` says what is in a bag", file.display())]
+    ReadBag { file: PathBuf, error: Box<hssh_io::RecordingError> },
+    #[cfg(not(feature = "bags"))]
+    #[error("{} is {kind}, and this hssh was built without its feature `bags`\nhelp: `cargo run --release --package hssh -- …` has it", file.display())]
+    WithoutBags { file: PathBuf, kind: FileKind },
     #[error("{}: {error}", file.display())]
     Survey { file: PathBuf, error: Box<hssh_local::SurveyError> },
     #[error("the track is no pose graph: {0}")]

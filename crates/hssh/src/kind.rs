@@ -9,6 +9,10 @@ pub enum FileKind {
     Exploration,
     /// A robot's laser log in CARMEN form; with its first message.
     LaserLog(String),
+    /// A robot's recording by topics, and of which kind.
+    Recording(&'static str),
+    /// A table with the odometry and the ranges of a scan in each line.
+    Table,
     /// A pose graph: g2o, TORO, iSAM; with its first record.
     PoseGraph(String),
     /// The YAML file of a grid map.
@@ -56,6 +60,8 @@ impl FileKind {
         match self {
             FileKind::Exploration => "`hssh map` maps an exploration, `hssh check` says what is in it",
             FileKind::LaserLog(_) => "`hssh map` maps a laser log, `hssh explore` makes an exploration of it",
+            FileKind::Recording(_) => "`hssh check` says what is in a bag, `hssh map` maps it",
+            FileKind::Table => "`hssh map` maps a table of scans, `hssh explore` makes an exploration of it",
             FileKind::PoseGraph(_) => "`hssh graph` optimizes a pose graph",
             FileKind::MapDescription | FileKind::Image(_) => {
                 "`hssh stars` finds the places of a grid map, `hssh simulate` drives through one"
@@ -77,6 +83,8 @@ impl fmt::Display for FileKind {
         match self {
             FileKind::Exploration => write!(f, "an exploration"),
             FileKind::LaserLog(first) => write!(f, "a laser log (its first message is `{}`)", word(first)),
+            FileKind::Recording(what) => write!(f, "{what}"),
+            FileKind::Table => write!(f, "a table of scans"),
             FileKind::PoseGraph(first) => write!(f, "a pose graph (its first record is `{}`)", word(first)),
             FileKind::MapDescription => write!(f, "the description of a grid map"),
             FileKind::Image(kind) => write!(f, "an image ({kind})"),
@@ -91,7 +99,7 @@ impl fmt::Display for FileKind {
 
 /// What the first bytes alone say.
 fn by_signature(beginning: &[u8]) -> Option<FileKind> {
-    use FileKind::{Compressed, Foreign, Image};
+    use FileKind::{Compressed, Image, Recording};
     let kind = match beginning {
         [b'P', b'1'..=b'6', space, ..] if space.is_ascii_whitespace() || *space == b'#' => {
             Image(["PBM", "PGM", "PPM", "PBM", "PGM", "PPM"][usize::from(beginning[1] - b'1')])
@@ -110,9 +118,9 @@ fn by_signature(beginning: &[u8]) -> Option<FileKind> {
         [b'P', b'K', 3, 4, ..] => Compressed("zip", "unzip -p"),
         [b'7', b'z', 0xBC, 0xAF, ..] => Compressed("7-Zip", "7z x -so"),
         [0x1F, 0x8B, ..] => Compressed("gzip, twice or damaged", "gzip -dc"),
-        [b'#', b'R', b'O', b'S', b'B', b'A', b'G', ..] => Foreign("a ROS bag"),
-        [b'S', b'Q', b'L', b'i', b't', b'e', ..] => Foreign("a SQLite database, perhaps a ROS 2 bag"),
-        [0x89, b'M', b'C', b'A', b'P', ..] => Foreign("an MCAP file, perhaps a ROS 2 bag"),
+        [b'#', b'R', b'O', b'S', b'B', b'A', b'G', ..] => Recording("a ROS 1 bag"),
+        [b'S', b'Q', b'L', b'i', b't', b'e', ..] => Recording("a SQLite database, perhaps a ROS 2 bag"),
+        [0x89, b'M', b'C', b'A', b'P', ..] => Recording("an MCAP file, perhaps a ROS 2 bag"),
         _ => return None,
     };
     Some(kind)
@@ -123,6 +131,9 @@ fn of_text(text: &str) -> FileKind {
     let is_record = |line: &&str| !line.is_empty() && !line.starts_with('#');
     let mut records = text.split(['\n', '\r']).map(str::trim).filter(is_record);
     let Some(first) = records.next() else { return FileKind::Text };
+    if hssh_io::is_table(first) {
+        return FileKind::Table;
+    }
     if first.starts_with("hssh-certificate") {
         return FileKind::Written("hssh-certificate".to_owned());
     }
@@ -224,6 +235,8 @@ mod tests {
         assert_eq!(of("resolution: 1\r\nimage: a.pgm"), FileKind::MapDescription);
         assert_eq!(of("P5\n3 3 255\n"), FileKind::Image("PGM"));
         assert_eq!(of("{\n  \"format\": \"hssh-answer\","), FileKind::Written("hssh-answer".into()));
+        assert_eq!(of("# angle_min: -1\ntime,x,y,theta\n"), FileKind::Table);
+        assert!(matches!(FileKind::of(b"\x89MCAP0\r\n"), FileKind::Recording(_)));
         assert_eq!(of("hello"), FileKind::Text);
         assert_eq!(of(""), FileKind::Empty);
         assert_eq!(FileKind::of(&[0; 9]), FileKind::Foreign("binary data"));

@@ -124,6 +124,15 @@ pub enum LogWarning {
     },
     /// The scans turn with the robot instead of against it: their beams come in the other order.
     Mirrored,
+    /// Something about a recording that its reader has to say.
+    Remark {
+        /// What, in words.
+        text: String,
+        /// Whether a part of the recording is missing from what is made of it.
+        is_loss: bool,
+    },
+    /// There is no odometry: scan matching alone says how the robot moved.
+    ScansAlone,
     /// Many readings are beyond the limit that the log says.
     LimitDoubted {
         /// The limit: metres.
@@ -137,8 +146,10 @@ pub enum LogWarning {
     },
     /// The odometry jumps as no robot moves; the step is bridged by the one before it and by the scans.
     Jump {
-        /// The line behind the jump, counted from 1.
+        /// The line behind the jump, counted from 1; in recordings without lines, the number of the next scan.
         line: u64,
+        /// Whether it is a line of a text.
+        is_text: bool,
         /// How far it jumps: metres.
         metres: f64,
         /// How far it turns: radians.
@@ -160,6 +171,8 @@ impl LogWarning {
             | LogWarning::Facing { .. }
             | LogWarning::OdometryScale { .. }
             | LogWarning::Mirrored
+            | LogWarning::Remark { .. }
+            | LogWarning::ScansAlone
             | LogWarning::View { .. } => 0,
         }
     }
@@ -169,6 +182,7 @@ impl LogWarning {
     pub fn is_loss(&self) -> bool {
         match self {
             LogWarning::Message { .. } | LogWarning::BreaksOff { .. } | LogWarning::Jump { .. } => true,
+            LogWarning::Remark { is_loss, .. } => *is_loss,
             LogWarning::OddBeams { .. }
             | LogWarning::RangeLimit { .. }
             | LogWarning::LimitDoubted { .. }
@@ -176,6 +190,7 @@ impl LogWarning {
             | LogWarning::Facing { .. }
             | LogWarning::OdometryScale { .. }
             | LogWarning::Mirrored
+            | LogWarning::ScansAlone
             | LogWarning::View { .. } => false,
         }
     }
@@ -241,10 +256,17 @@ impl fmt::Display for LogWarning {
                  readings are longer, up to {longest} m, and differ as walls do: they were taken to have brought nothing \
                  back; is the limit right?"
             ),
-            LogWarning::Jump { line, metres, turn } => write!(
+            LogWarning::Remark { text, .. } => f.write_str(text),
+            LogWarning::ScansAlone => write!(
                 f,
-                "line {line}: the odometry jumps by {metres:.1} m and {:.0}°, as no robot moves; the step was bridged by \
+                "there is no odometry: scan matching alone says how the robot moved, which errs along corridors that look \
+                 the same everywhere, and where the robot moves or turns far between two scans"
+            ),
+            LogWarning::Jump { line, is_text, metres, turn } => write!(
+                f,
+                "{} {line}: the odometry jumps by {metres:.1} m and {:.0}°, as no robot moves; the step was bridged by \
                  scan matching",
+                if *is_text { "line" } else { "scan" },
                 turn.to_degrees()
             ),
         }
@@ -292,6 +314,9 @@ pub enum LogError {
         /// Whether the ranges would make sense as millimetres.
         is_in_millimetres: bool,
     },
+    /// A recording without a usable scan.
+    #[error("the recording has no usable laser scan")]
+    NothingRecorded,
     /// No usable scan.
     #[error(
         "the log has no usable laser scan: {lines} lines, among them {messages}{first}; a log needs FLASER messages",

@@ -21,7 +21,7 @@ const DETOUR: f64 = 8.0;
 impl RawLog {
     /// Takes jumps out of the trajectory: what comes behind one is moved to where the step before would have led, and a
     /// detour there and back says that this is a guess, so that scans decide.
-    pub(super) fn bridge_jumps(&mut self, warnings: &mut Vec<LogWarning>) {
+    pub(crate) fn bridge_jumps(&mut self, warnings: &mut Vec<LogWarning>) {
         let usual = self.usual_step();
         let raw = std::mem::take(&mut self.trajectory);
         let times = self.times(raw.len());
@@ -34,7 +34,7 @@ impl RawLog {
                     times[index].zip(times[before]).map(|([_, later], [earlier, _])| later - earlier);
                 if is_jump(step, usual, seconds) {
                     let (metres, turn) = (step.translation().norm(), step.theta);
-                    warnings.push(LogWarning::Jump { line, metres, turn });
+                    warnings.push(LogWarning::Jump { line, is_text: self.is_text, metres, turn });
                     let here = self.trajectory.last().map_or(pose, |last| last.pose);
                     moved = here.compose(last_step).compose(pose.inverse());
                     let away = here.compose(Pose::new(DETOUR / 2.0, 0.0, 0.0));

@@ -36,7 +36,7 @@ impl RawLog {
     ///
     /// # Errors
     /// If hardly a beam came back.
-    pub(super) fn limit(&self, warnings: &mut Vec<LogWarning>) -> Result<f64, LogError> {
+    pub(crate) fn limit(&self, warnings: &mut Vec<LogWarning>) -> Result<f64, LogError> {
         let said = self.parameter(FRONT_LASER_MAX).filter(|&metres| metres > 0.0);
         let usual = said.unwrap_or(DEFAULT);
         let readings =

@@ -7,7 +7,7 @@ use hssh_metrics::Pose;
 
 use super::error::{LogError, LogWarning};
 use super::mount::LaserMount;
-use super::raw::{RawLog, RawScan};
+use super::raw::{self, RawLog, RawScan};
 use super::reader::LogReader;
 use crate::scan::Scan;
 
@@ -20,10 +20,10 @@ pub struct LoggedScan {
     pub odometry: Pose,
     /// The same moment's position in [`LaserLog::trajectory`].
     pub moment: usize,
-    /// The pose after somebody's scan matching. For scoring only: no part of the mapper looks at it, but for the laser's
+    /// The pose after somebody's scan matching, or the raw one where nobody did any. For scoring only: no part of the mapper looks at it, but for the laser's
     /// place on the robot, which logs that nobody corrected tell by it.
     pub corrected: Pose,
-    /// The line of the log, counted from 1.
+    /// The line of the log, counted from 1; in recordings without lines, the scan's number among all, counted from 1.
     pub line: u64,
     /// When it was taken, in seconds of the recording program's clock, if the log says so.
     pub time: Option<f64>,
@@ -32,7 +32,7 @@ pub struct LoggedScan {
 /// What a log holds for a mapper.
 #[derive(Clone, PartialEq, Debug)]
 pub struct LaserLog {
-    /// The scans in order; at least one, all with the same number of beams.
+    /// The scans in order; at least one. Those of a text all have the same number of beams.
     pub scans: Vec<LoggedScan>,
     /// All raw odometry of the laser in order, that of the scans included. Where it jumped, the jump is taken out, and a
     /// detour says how little is known of that step.
@@ -64,7 +64,7 @@ impl LaserLog {
     /// As [`read`](Self::read).
     pub fn read_with(source: impl Read, known: &LaserMount) -> Result<Self, LogError> {
         let mut reader = LogReader::new(source)?;
-        let mut raw = RawLog::default();
+        let mut raw = RawLog { is_text: true, ..RawLog::default() };
         while let Some(message) = reader.next_message()? {
             raw.add(message, reader.line());
         }
@@ -72,18 +72,18 @@ impl LaserLog {
         if raw.scans.is_empty() {
             return Err(raw.why_useless(lines, warnings));
         }
+        raw.keep_best_kind();
         raw.keep_usual_scans(&mut warnings);
         raw.tell_odd_beams(&mut warnings);
-        let (view, is_told) = raw.view(known);
+        let (view, turn, is_told) = raw.view(known);
         raw.check_view(view, is_told, &mut warnings);
         raw.move_to_laser(known, &mut warnings);
         raw.bridge_jumps(&mut warnings);
         let max_range = raw.limit(&mut warnings)?;
         let is_facing_unclear = raw.check_facing(view, max_range, &mut warnings);
         warnings.sort_by_key(LogWarning::line);
-        let came_back = |range: f64| if range > 0.0 && range < max_range { range } else { f64::INFINITY };
         let logged = |scan: RawScan| LoggedScan {
-            scan: Scan { ranges: scan.ranges.into_iter().map(came_back).collect(), view },
+            scan: Scan { ranges: raw::came_back(scan.ranges, max_range), view, turn },
             odometry: raw.trajectory[scan.moment].pose,
             moment: scan.moment,
             corrected: scan.corrected,

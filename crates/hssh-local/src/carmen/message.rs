@@ -25,18 +25,44 @@ pub enum Message {
     Other(String),
 }
 
-/// A `FLASER` message as it stands in the log.
+/// Which message a scan is told by, the least useful first: a log may tell each scan by several.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
+pub enum LaserKind {
+    /// `RLASER`: a laser that looks back.
+    Rear,
+    /// `RAWLASER1`: without a pose, which odometry before it tells.
+    Raw,
+    /// `ROBOTLASER1`: says how the laser looks.
+    Robot,
+    /// `FLASER`.
+    Front,
+}
+
+/// How a message says that its laser looks.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub struct LaserView {
+    /// How wide: radians.
+    pub view: f64,
+    /// Where the middle of its view is: radians, counterclockwise from straight ahead.
+    pub turn: f64,
+}
+
+/// A laser message as it stands in the log.
 #[derive(Clone, PartialEq, Debug)]
 pub struct LaserMessage {
+    /// Which message it is.
+    pub kind: LaserKind,
+    /// How its laser looks, if the message says so.
+    pub looks: Option<LaserView>,
     /// Metres, beam by beam, as recorded; infinite where the word is no range: `inf`, `nan`, negative, or no number.
     pub ranges: Vec<f64>,
     /// How many words are no ranges.
     pub odd_beams: usize,
     /// The first of them.
     pub odd_word: Option<String>,
-    /// The laser's pose: after somebody's scan matching, or raw.
+    /// The laser's pose: after somebody's scan matching, or raw. The origin in messages without poses.
     pub corrected: Pose,
-    /// The robot's raw odometry.
+    /// The robot's raw odometry; the origin in messages without poses.
     pub odometry: Pose,
     /// When it was taken, in seconds of the recording program's clock, if the message says so.
     pub time: Option<f64>,
@@ -51,7 +77,10 @@ impl Message {
         let words: Vec<&str> = line.split_whitespace().collect();
         let kind = words.first().map(|kind| kind.to_ascii_uppercase());
         match kind.as_deref() {
-            Some("FLASER") => Ok(Message::Laser(laser(&words)?)),
+            Some("FLASER") => Ok(Message::Laser(laser(&words, LaserKind::Front)?)),
+            Some("RLASER") => Ok(Message::Laser(laser(&words, LaserKind::Rear)?)),
+            Some("ROBOTLASER1") => Ok(Message::Laser(told_laser(&words, LaserKind::Robot)?)),
+            Some("RAWLASER1") => Ok(Message::Laser(told_laser(&words, LaserKind::Raw)?)),
             Some("ODOM") => Ok(Message::Odometry(pose(&words, 1)?)),
             Some("PARAM") if words.len() >= 3 => {
                 Ok(Message::Parameter { name: words[1].to_owned(), value: words[2].to_owned() })
@@ -64,7 +93,7 @@ impl Message {
 }
 
 /// `FLASER n r… x y θ x y θ`, and three words about the time that old logs may lack.
-fn laser(words: &[&str]) -> Result<LaserMessage, MessageProblem> {
+fn laser(words: &[&str], kind: LaserKind) -> Result<LaserMessage, MessageProblem> {
     let count = words.get(1).copied().unwrap_or_default();
     let beams = count.parse().ok().filter(|beams| (1..=MOST_BEAMS).contains(beams));
     let beams: usize = beams.ok_or_else(|| MessageProblem::BeamCount { token: abbreviated(count) })?;
@@ -72,19 +101,70 @@ fn laser(words: &[&str]) -> Result<LaserMessage, MessageProblem> {
     if ![poses + 6, poses + 9].contains(&words.len()) {
         return Err(MessageProblem::Length { found: words.len(), beams, expected: poses + 9 });
     }
+    let Beams { ranges, odd_beams, odd_word } = read_beams(words, 2..poses)?;
+    let (corrected, odometry) = (pose(words, poses)?, pose(words, poses + 3)?);
+    let time = number(words, poses + 6).ok();
+    let back = LaserView { view: std::f64::consts::PI, turn: std::f64::consts::PI };
+    let looks = (kind == LaserKind::Rear).then_some(back);
+    Ok(LaserMessage { kind, looks, ranges, odd_beams, odd_word, corrected, odometry, time })
+}
+
+/// `ROBOTLASER1 type start view step longest accuracy remissions n r… m i… x y θ x y θ v ω … t host t`, of which
+/// `RAWLASER1` has no poses and no speeds.
+fn told_laser(words: &[&str], kind: LaserKind) -> Result<LaserMessage, MessageProblem> {
+    /// The words before the ranges, and those about speeds and safety behind the poses.
+    const BEFORE: usize = 9;
+    const SPEEDS: usize = 5;
+    let (first, view) = (number(words, 2)?, number(words, 3)?);
+    let (step, longest) = (number(words, 4)?, number(words, 5)?);
+    let count = words.get(8).copied().unwrap_or_default();
+    let beams = count.parse().ok().filter(|beams| (1..=MOST_BEAMS).contains(beams));
+    let beams: usize = beams.ok_or_else(|| MessageProblem::BeamCount { token: abbreviated(count) })?;
+    let behind = BEFORE + beams;
+    let remissions = words.get(behind).and_then(|count| count.parse::<usize>().ok());
+    let remissions = remissions.filter(|&remissions| remissions <= MOST_BEAMS);
+    let expected = behind + 1;
+    let remissions = remissions.ok_or(MessageProblem::Length { found: words.len(), beams, expected })?;
+    let poses = behind + 1 + remissions;
+    let Beams { mut ranges, odd_beams, odd_word } = read_beams(words, BEFORE..behind)?;
+    if longest > 0.0 {
+        ranges.iter_mut().filter(|range| **range >= longest).for_each(|range| *range = f64::INFINITY);
+    }
+    let steps = (beams - beams % 2) as f64;
+    let view = if step > 0.0 { step * steps } else { view };
+    let is_view = view > 0.0 && view <= std::f64::consts::TAU + 0.1 && first.abs() <= std::f64::consts::TAU;
+    let looks = is_view.then_some(LaserView { view, turn: first + view / 2.0 });
+    let (corrected, odometry, times) = match kind {
+        LaserKind::Raw => (Pose::IDENTITY, Pose::IDENTITY, poses),
+        _ => (pose(words, poses)?, pose(words, poses + 3)?, poses + 6 + SPEEDS),
+    };
+    let time = number(words, times).ok();
+    Ok(LaserMessage { kind, looks, ranges, odd_beams, odd_word, corrected, odometry, time })
+}
+
+/// The ranges in some words.
+struct Beams {
+    ranges: Vec<f64>,
+    odd_beams: usize,
+    odd_word: Option<String>,
+}
+
+fn read_beams(words: &[&str], at: std::ops::Range<usize>) -> Result<Beams, MessageProblem> {
+    if at.end > words.len() {
+        return Err(MessageProblem::TooShort { found: words.len(), expected: at.end });
+    }
+    let beams = at.len();
     let odd = |&word: &usize| range(words[word]).is_none();
-    let nonsense = (2..poses).filter(|&word| odd(&word) && !says_nothing(words[word]));
+    let nonsense = at.clone().filter(|&word| odd(&word) && !says_nothing(words[word]));
     if nonsense.clone().count() > beams / MOST_NONSENSE
         && let Some(word) = nonsense.clone().next()
     {
         return Err(MessageProblem::NotANumber { word: word + 1, token: abbreviated(words[word]) });
     }
-    let odd_word = (2..poses).find(odd).map(|word| abbreviated(words[word]));
-    let odd_beams = (2..poses).filter(odd).count();
-    let ranges = words[2..poses].iter().map(|word| range(word).unwrap_or(f64::INFINITY)).collect();
-    let (corrected, odometry) = (pose(words, poses)?, pose(words, poses + 3)?);
-    let time = number(words, poses + 6).ok();
-    Ok(LaserMessage { ranges, odd_beams, odd_word, corrected, odometry, time })
+    let odd_word = at.clone().find(odd).map(|word| abbreviated(words[word]));
+    let odd_beams = at.clone().filter(odd).count();
+    let ranges = words[at].iter().map(|word| range(word).unwrap_or(f64::INFINITY)).collect();
+    Ok(Beams { ranges, odd_beams, odd_word })
 }
 
 /// One beam in so many may be no number at all; with more of them, something else is wrong with the message.

@@ -3,11 +3,14 @@
 //! | message | read as |
 //! |---|---|
 //! | `FLASER n r… x y θ x y θ t host t` | a scan, the corrected pose (for scoring only) and the raw odometry |
+//! | `ROBOTLASER1`, `RAWLASER1` | the same, and how the laser looks; `RAWLASER1` has no poses: odometry before it counts |
+//! | `RLASER …` | as `FLASER`, of a laser that looks back |
 //! | `ODOM x y θ …` | raw odometry between scans |
 //! | `PARAM name value …` | `robot_front_laser_max`: from that range on nothing came back; `robot_frontlaser_offset` and its kin: where the laser sits; `laser_front_laser_fov`: how wide it looks |
 //! | anything else | counted |
 //!
-//! Names of messages may be in capitals or not. The last of several values of a parameter counts, for the whole log.
+//! Names of messages may be in capitals or not. The last of several values of a parameter counts, for the whole log. Of several laser
+//! messages one kind is read: `FLASER` before `ROBOTLASER1` before `RAWLASER1` before `RLASER`.
 
 mod error;
 mod facing;
@@ -22,6 +25,7 @@ mod view;
 
 pub use error::{LogError, LogWarning, MessageProblem};
 pub use log::{LaserLog, LoggedScan};
-pub use message::{LaserMessage, Message};
+pub use message::{LaserKind, LaserMessage, LaserView, Message};
 pub use mount::LaserMount;
+pub(crate) use raw::{Moment, RawLog, RawScan, came_back};
 pub use reader::LogReader;

@@ -3,6 +3,7 @@
 use hssh_metrics::Pose;
 
 use super::error::LogWarning;
+use super::message::LaserKind;
 use super::raw::RawLog;
 
 /// The parameters that say it: metres ahead, metres to the left, radians.
@@ -28,21 +29,29 @@ pub struct LaserMount {
 }
 
 impl RawLog {
-    /// How wide the laser looks, in radians, and whether anybody says so.
-    pub(super) fn view(&self, known: &LaserMount) -> (f64, bool) {
+    /// How wide the laser looks and where the middle of its view is, in radians, and whether anybody says so.
+    pub(super) fn view(&self, known: &LaserMount) -> (f64, f64, bool) {
         let said = self.parameter(VIEW).filter(|degrees| *degrees > 0.0 && *degrees <= 360.0);
-        let told = known.view.or(said.map(f64::to_radians));
-        (told.unwrap_or(std::f64::consts::PI), told.is_some())
+        let looks = self.scans.first().and_then(|scan| scan.looks);
+        let told = known.view.or(looks.map(|looks| looks.view)).or(said.map(f64::to_radians));
+        // A turn this small is what is lost of an angle in a text.
+        let turn = looks.map(|looks| looks.turn).filter(|turn| turn.abs() > 1e-3);
+        (told.unwrap_or(std::f64::consts::PI), turn.unwrap_or(0.0), told.is_some())
     }
 
     /// Makes the trajectory that of the laser, from which all ranges are measured.
     pub(super) fn move_to_laser(&mut self, known: &LaserMount, warnings: &mut Vec<LogWarning>) {
-        let (pose, source) = match (known.pose, self.told_by_poses(), self.told_by_parameters()) {
+        let (mut pose, source) = match (known.pose, self.told_by_poses(), self.told_by_parameters()) {
             (Some(pose), ..) => (pose, "who gave it"),
             (None, Some(pose), _) => (pose, "the difference of the two poses in each FLASER message"),
             (None, None, Some(pose)) => (pose, "the log's parameter robot_frontlaser_offset"),
             (None, None, None) => return,
         };
+        // That a rear laser looks back is said by its scans.
+        let is_rear = self.scans.first().is_some_and(|scan| scan.kind == LaserKind::Rear);
+        if is_rear && pose.theta.abs() > std::f64::consts::FRAC_PI_2 {
+            pose = Pose::new(pose.x, pose.y, pose.theta - std::f64::consts::PI);
+        }
         for moment in &mut self.trajectory {
             moment.pose = moment.pose.compose(pose);
         }

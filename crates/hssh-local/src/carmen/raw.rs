@@ -1,53 +1,72 @@
 //! A log as its messages tell it, before anything is made of it that concerns the log as a whole.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use hssh_metrics::Pose;
 
 use super::error::{LogError, LogWarning, MessageProblem};
-use super::message::{LaserMessage, Message};
+use super::message::{LaserKind, LaserMessage, LaserView, Message};
 
 /// All messages of a log.
 #[derive(Default)]
-pub(super) struct RawLog {
+pub(crate) struct RawLog {
+    /// Whether it has lines.
+    pub(crate) is_text: bool,
     /// The scans in order.
-    pub(super) scans: Vec<RawScan>,
+    pub(crate) scans: Vec<RawScan>,
     /// All raw odometry in order, that of the scans included.
-    pub(super) trajectory: Vec<Moment>,
+    pub(crate) trajectory: Vec<Moment>,
     /// The last value of each parameter that is a finite number.
-    pub(super) parameters: BTreeMap<String, f64>,
+    pub(crate) parameters: BTreeMap<String, f64>,
     /// How many messages of kinds that are not read, by kind.
-    pub(super) skipped: BTreeMap<String, u64>,
+    pub(crate) skipped: BTreeMap<String, u64>,
 }
 
 /// A scan as its message tells it.
-pub(super) struct RawScan {
-    pub(super) ranges: Vec<f64>,
-    pub(super) odd_beams: usize,
-    pub(super) odd_word: Option<String>,
+pub(crate) struct RawScan {
+    pub(crate) kind: LaserKind,
+    /// How its laser looks, if the message says so.
+    pub(crate) looks: Option<LaserView>,
+    pub(crate) ranges: Vec<f64>,
+    pub(crate) odd_beams: usize,
+    pub(crate) odd_word: Option<String>,
     /// The first of the two poses in the message.
-    pub(super) corrected: Pose,
+    pub(crate) corrected: Pose,
     /// Its own position in the trajectory.
-    pub(super) moment: usize,
-    pub(super) line: u64,
-    pub(super) time: Option<f64>,
+    pub(crate) moment: usize,
+    pub(crate) line: u64,
+    pub(crate) time: Option<f64>,
 }
 
 /// A pose of raw odometry, and the line that has it.
 #[derive(Clone, Copy)]
-pub(super) struct Moment {
-    pub(super) pose: Pose,
-    pub(super) line: u64,
+pub(crate) struct Moment {
+    pub(crate) pose: Pose,
+    pub(crate) line: u64,
 }
 
 impl RawLog {
     pub(super) fn add(&mut self, message: Message, line: u64) {
         match message {
             Message::Laser(laser) => {
-                let LaserMessage { ranges, odd_beams, odd_word, corrected, odometry, time } = laser;
+                let LaserMessage { kind, looks, ranges, odd_beams, odd_word, corrected, odometry, time } =
+                    laser;
+                let last = self.trajectory.last().map_or(Pose::IDENTITY, |last| last.pose);
+                let (corrected, pose) =
+                    if kind == LaserKind::Raw { (last, last) } else { (corrected, odometry) };
                 let moment = self.trajectory.len();
-                self.trajectory.push(Moment { pose: odometry, line });
-                self.scans.push(RawScan { ranges, odd_beams, odd_word, corrected, moment, line, time });
+                self.trajectory.push(Moment { pose, line });
+                self.scans.push(RawScan {
+                    kind,
+                    looks,
+                    ranges,
+                    odd_beams,
+                    odd_word,
+                    corrected,
+                    moment,
+                    line,
+                    time,
+                });
             }
             Message::Odometry(pose) => self.trajectory.push(Moment { pose, line }),
             Message::Parameter { name, value } => {
@@ -62,6 +81,34 @@ impl RawLog {
     /// The value of a parameter.
     pub(super) fn parameter(&self, name: &str) -> Option<f64> {
         self.parameters.get(name).copied()
+    }
+
+    /// Of messages that tell the same scans, or those of other lasers, the most useful kind is kept.
+    pub(super) fn keep_best_kind(&mut self) {
+        let best = self.scans.iter().map(|scan| scan.kind).max();
+        let others = self.scans.iter().filter(|scan| Some(scan.kind) != best);
+        for scan in others {
+            let name = match scan.kind {
+                LaserKind::Rear => "RLASER",
+                LaserKind::Raw => "RAWLASER1",
+                LaserKind::Robot => "ROBOTLASER1",
+                LaserKind::Front => "FLASER",
+            };
+            *self.skipped.entry(name.to_owned()).or_default() += 1;
+        }
+        let gone: BTreeSet<usize> =
+            self.scans.iter().filter(|scan| Some(scan.kind) != best).map(|scan| scan.moment).collect();
+        if gone.is_empty() {
+            return;
+        }
+        // What is not read says nothing of the way either.
+        self.scans.retain(|scan| Some(scan.kind) == best);
+        for scan in &mut self.scans {
+            scan.moment -= gone.range(..scan.moment).count();
+        }
+        let trajectory = std::mem::take(&mut self.trajectory);
+        let kept = trajectory.into_iter().enumerate().filter(|(moment, _)| !gone.contains(moment));
+        self.trajectory = kept.map(|(_, moment)| moment).collect();
     }
 
     /// Leaves out scans with another number of beams than most.
@@ -108,4 +155,10 @@ impl RawLog {
         let messages = if kinds.is_empty() { "no message".to_owned() } else { kinds.join(", ") };
         LogError::NoScans { lines, messages, first_warning: warnings.into_iter().next() }
     }
+}
+
+/// Ranges with what did not come back as infinite, which is what is not shorter than the limit, or no length.
+pub(crate) fn came_back(ranges: Vec<f64>, limit: f64) -> Vec<f64> {
+    let told = |range: f64| if range > 0.0 && range < limit { range } else { f64::INFINITY };
+    ranges.into_iter().map(told).collect()
 }

@@ -6,6 +6,7 @@ mod cloud;
 mod correlate;
 mod motion;
 mod options;
+mod scans_alone;
 mod track;
 mod turned;
 
@@ -13,5 +14,6 @@ pub(crate) use align::align;
 pub(crate) use cloud::{Cloud, SurfacePoint, surfaces};
 pub use motion::{MotionNoise, Slip};
 pub use options::MatchOptions;
+pub use scans_alone::{TimedScan, odometry_from_scans};
 pub use track::{Track, TrackedScan, Tracker, track};
 pub use turned::LaserTurn;

@@ -97,12 +97,16 @@ impl Tracker {
     /// # Panics
     /// If there is no raw pose.
     pub fn add(&mut self, scan: &Scan, odometry: &[Pose]) -> TrackedScan {
+        self.add_moved(scan, &self.options.odometry.motion(odometry))
+    }
+
+    /// Where the next scan was taken, of which it is known how the robot moved since the scan before.
+    pub(super) fn add_moved(&mut self, scan: &Scan, motion: &UncertainPose) -> TrackedScan {
         let seen = surfaces(scan, self.options.reach, self.options.spacing);
         let tracked = match &self.last {
             None => TrackedScan { pose: Pose::IDENTITY, step: None, travelled: 0.0 },
             Some(last) => {
-                let motion = self.options.odometry.motion(odometry);
-                let step = matched(&self.reference, &seen, last.pose, &motion, &self.options);
+                let step = matched(&self.reference, &seen, last.pose, motion, &self.options);
                 let pose = last.pose.compose(step.mean);
                 self.fit = self.reference.field.fit(&seen, pose);
                 TrackedScan {

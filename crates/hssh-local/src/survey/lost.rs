@@ -3,7 +3,7 @@
 use hssh_metrics::Pose;
 
 use super::error::SurveyWarning;
-use crate::carmen::LaserLog;
+use crate::carmen::{LaserLog, LogWarning};
 use crate::matching::Track;
 
 /// Where the robot was lost: so many scans in a row, or so large a part of all, lie on nothing that was seen before; or
@@ -19,7 +19,8 @@ pub fn doubts(log: &LaserLog, track: &Track) -> Vec<SurveyWarning> {
         moved.translation().norm() < 0.01 && moved.theta.abs() < 0.01
     };
     let has_moved = track.scans.last().is_some_and(|last| last.travelled > 1.0);
-    if has_moved && log.trajectory.iter().all(stands) {
+    let has_none = log.warnings.contains(&LogWarning::ScansAlone);
+    if has_none || has_moved && log.trajectory.iter().all(stands) {
         warnings.push(SurveyWarning::NoOdometry);
     }
     let mut runs: Vec<(usize, usize)> = Vec::new();

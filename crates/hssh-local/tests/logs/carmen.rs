@@ -395,3 +395,34 @@ fn a_limit_far_below_the_ranges_is_doubted() {
     };
     assert_eq!([is_doubted("5.0"), is_doubted("9.8"), is_doubted("50")], [true, false, false]);
 }
+
+/// Two scans of three beams from −135° in steps of 90°, 0.2 m ahead of the robot's axis.
+const ROBOT_LASER: &str = "\
+ODOM 1 0 0 0 0 0 0.5 host 0.5
+RAWLASER1 0 -2.356194 4.712389 1.570796 30 0.01 0 4 1.5 30.5 2.5 3.5 0 0.6 host 0.6
+ROBOTLASER1 0 -2.356194 4.712389 1.570796 30 0.01 0 4 1.5 30.5 2.5 3.5 2 9 9 1.2 0 0 1 0 0 0 0 0.5 0.5 1 0.6 host 0.6
+ROBOTLASER1 0 -2.356194 4.712389 1.570796 30 0.01 0 4 1.5 30.5 2.5 3.5 0 2.2 0 0 2 0 0 0 0 0.5 0.5 1 0.7 host 0.7
+";
+
+#[test]
+fn lasers_that_say_how_they_look_are_believed() {
+    let log = read(ROBOT_LASER).unwrap();
+    assert_eq!((log.scans.len(), log.skipped["RAWLASER1"]), (2, 1));
+    let scan = &log.scans[0].scan;
+    assert_eq!(scan.ranges, [1.5, f64::INFINITY, 2.5, 3.5]);
+    let bearings: Vec<f64> = (0..4).map(|beam| scan.bearing(beam).to_degrees().round()).collect();
+    assert_eq!(bearings, [-135.0, -45.0, 45.0, 135.0]);
+    assert!((log.scans[1].odometry.x - 2.2).abs() < 1e-9 && log.scans[1].time == Some(0.7));
+    let raw = read(&ROBOT_LASER.replace("ROBOTLASER1", "OTHER")).unwrap();
+    assert_eq!((raw.scans.len(), raw.scans[0].odometry.x), (1, 1.0));
+    let broken = ROBOT_LASER.replace("2 9 9 1.2", "900 9 9 1.2");
+    assert_eq!(read(&broken).unwrap().scans.len(), 1);
+}
+
+#[test]
+fn a_rear_laser_looks_back() {
+    let rear = LOG.replace("FLASER", "RLASER");
+    let log = read(&rear).unwrap();
+    let middle = log.scans[0].scan.direction(1);
+    assert!((middle.x + 1.0).abs() < 1e-9, "{middle}");
+}

@@ -33,8 +33,10 @@ pub enum WarningKind {
     UnconfirmedReturn,
     /// Scans that lie on nothing that was seen before.
     Lost,
-    /// Odometry that stands still while the scans move.
+    /// Odometry that stands still while the scans move, or none.
     NoOdometry,
+    /// What of a recording is not used, or used otherwise than it says.
+    Recording,
     /// The survey was stopped before its end.
     SurveyInterrupted,
     /// The best map bends a measured travel by more than its covariance can explain.

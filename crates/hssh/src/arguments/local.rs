@@ -8,7 +8,8 @@ use hssh_local::{PlaceOptions, RegionOptions, RoadmapOptions, UnknownSpace};
 
 #[derive(Debug, Args)]
 pub(crate) struct ExploreArguments {
-    /// The log: CARMEN text with FLASER messages, plain or gzip; `-` reads standard input.
+    /// The log: CARMEN text with FLASER messages, a ROS bag (.bag, .mcap, .db3, folder) or a table of scans; `-` reads standard
+    /// input.
     pub(crate) log: PathBuf,
     /// Where to write the exploration; without it, it is printed.
     #[arg(short, long, value_name = "FILE")]
@@ -169,6 +170,29 @@ impl StarsArguments {
     }
 }
 
+/// What of a bag is used.
+#[derive(Clone, Debug, Default, Args)]
+#[command(next_help_heading = "Bags")]
+pub(crate) struct TopicArguments {
+    /// The topic with the scans of a bag [default: of the laser that looks widest].
+    #[arg(long, value_name = "TOPIC")]
+    pub(crate) scan: Option<String>,
+    /// The topic with the odometry of a bag, or the frame of /tf in which the robot moves; `none` for scan matching alone
+    /// [default: what moves the laser].
+    #[arg(long, value_name = "TOPIC")]
+    pub(crate) odom: Option<String>,
+    /// The frame of the robot that odometry moves [default: as the odometry says].
+    #[arg(long, value_name = "FRAME")]
+    pub(crate) base_frame: Option<String>,
+}
+
+impl TopicArguments {
+    /// Whether anything is chosen.
+    pub(crate) fn is_given(&self) -> bool {
+        self.scan.is_some() || self.odom.is_some() || self.base_frame.is_some()
+    }
+}
+
 /// How a log's laser looks and sits.
 #[derive(Debug, Args)]
 #[command(next_help_heading = "Laser")]
@@ -180,6 +204,8 @@ pub(crate) struct LaserArguments {
     /// [default: as the log says, else 0,0,0].
     #[arg(long, value_name = "X,Y,DEGREES", value_parser = mount, allow_hyphen_values = true)]
     pub(crate) laser_pose: Option<(f64, f64, f64)>,
+    #[command(flatten)]
+    pub(crate) topics: TopicArguments,
 }
 
 impl LaserArguments {

@@ -12,7 +12,7 @@ use crate::failure::Failure;
 
 pub(crate) use local::{
     ExploreArguments, ExportKind, LaserArguments, PlaceArguments, SimulateArguments, StarsArguments,
-    TrackArguments,
+    TopicArguments, TrackArguments,
 };
 pub(crate) use search::SearchArguments;
 
@@ -135,8 +135,10 @@ pub(crate) struct VerifyArguments {
 
 #[derive(Debug, Args)]
 pub(crate) struct CheckArguments {
-    /// The exploration, a RON file; `-` reads standard input.
+    /// The exploration, a RON file, or a bag; `-` reads standard input.
     pub(crate) file: PathBuf,
+    #[command(flatten)]
+    pub(crate) topics: TopicArguments,
     /// Print also its causal schemas ⟨view, action, view⟩, and whether equal views can be one state.
     #[arg(long)]
     pub(crate) schemas: bool,

@@ -16,7 +16,7 @@ pub(crate) fn run(arguments: &ExplainArguments) -> Result<Status, Failure> {
         let help = "counting keeps no maps to explain: choose another --search";
         return Err(Failure::Usage(help.to_owned()));
     }
-    let input = read_input(&arguments.file, &options)?;
+    let input = read_input(&arguments.file, &options, &arguments.laser.topics)?;
     let mapped = searched(&input, &options)?;
     let answer = &mapped.answer;
     if answer.maps.is_empty() {

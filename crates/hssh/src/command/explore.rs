@@ -15,7 +15,7 @@ pub(crate) fn run(arguments: &ExploreArguments) -> Result<Status, Failure> {
     let options = MappingOptions { laser, places, ..MappingOptions::default() };
     check_outputs(&[&arguments.log], [arguments.output.as_ref()])?;
     check_folder(arguments.debug_dir.as_ref())?;
-    let surveyed = read_surveyed(&arguments.log, &options)?;
+    let surveyed = read_surveyed(&arguments.log, &options, &arguments.laser.topics)?;
     if arguments.strict {
         refuse_partial(&arguments.log, Some(&surveyed))?;
     }

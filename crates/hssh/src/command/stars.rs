@@ -30,7 +30,7 @@ pub(crate) fn run(options: &StarsArguments) -> Result<Status, Failure> {
     let source = Source::open(&options.map)?;
     let is_yaml = options.map.extension().is_some_and(|ending| ending == "yaml" || ending == "yml");
     let grid = match source.kind() {
-        FileKind::LaserLog(_) => {
+        FileKind::LaserLog(_) | FileKind::Recording(_) | FileKind::Table => {
             refuse_region_options(options, "a laser log")?;
             return along(options, source);
         }
@@ -86,6 +86,7 @@ fn along(options: &StarsArguments, source: Source) -> Result<Status, Failure> {
         &options.map,
         source,
         &MappingOptions { laser: options.laser.choice(), places: options.places.choice(), ..usual },
+        &options.laser.topics,
     )?;
     let clearance = |visit: &Visit| {
         let lattice = *visit.grid.lattice();

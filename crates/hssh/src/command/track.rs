@@ -14,7 +14,8 @@ pub(crate) fn run(arguments: &TrackArguments) -> Result<Status, Failure> {
     let TrackArguments { log, trajectory, grid, g2o, .. } = arguments;
     let image = crate::output::grid_image(grid.as_deref());
     check_outputs(&[log], [trajectory, grid, g2o, &image].map(Option::as_ref))?;
-    let tracked = read_tracked(log, &arguments.laser.choice(), &MatchOptions::default())?;
+    let tracked =
+        read_tracked(log, &arguments.laser.choice(), &arguments.laser.topics, &MatchOptions::default())?;
     if let Some(lost) = tracked.first_loss().filter(|_| arguments.strict) {
         return Err(Failure::Partial { file: log.clone(), lost });
     }

@@ -1,5 +1,6 @@
 //! Reading what maps are to explain: explorations and laser logs.
 
+mod log;
 mod source;
 
 use std::path::Path;
@@ -9,24 +10,30 @@ use hssh::answer::AnswerWarning;
 use hssh::kind::FileKind;
 use hssh::pipeline::{Input, LaserChoice, MappingOptions, SurveyedLog, TrackedLog};
 use hssh_causal::Exploration;
-use hssh_local::{
-    LaserLog, MatchOptions, OccupancyGrid, Reply, SurveyError, SurveyStage, read_map_with_remarks,
-};
+use hssh_local::{MatchOptions, OccupancyGrid, Reply, SurveyError, SurveyStage, read_map_with_remarks};
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 
+use crate::arguments::TopicArguments;
 use crate::failure::Failure;
 use crate::progress::{is_interrupted, keep_on_signals};
 use crate::terminal::say;
 
+#[cfg(feature = "bags")]
+pub(crate) use log::read_account;
+use log::read_log;
 pub(crate) use source::Source;
 
 /// An exploration, or a laser log with what is found in it; `-` is standard input.
-pub(crate) fn read_input(file: &Path, options: &MappingOptions) -> Result<Input, Failure> {
+pub(crate) fn read_input(
+    file: &Path,
+    options: &MappingOptions,
+    topics: &TopicArguments,
+) -> Result<Input, Failure> {
     let name = file.display().to_string();
     let source = Source::open(file)?;
     match source.kind() {
-        FileKind::LaserLog(_) => {
-            let surveyed = surveyed(file, source, options)?;
+        FileKind::LaserLog(_) | FileKind::Recording(_) | FileKind::Table => {
+            let surveyed = surveyed(file, source, options, topics)?;
             Input::surveyed(name, surveyed).map_err(|error| failed(file, error))
         }
         FileKind::Exploration | FileKind::Text | FileKind::Empty => {
@@ -51,10 +58,18 @@ fn exploration(file: &Path, source: Source) -> Result<Exploration, Failure> {
 }
 
 /// The laser log in a file, and the places along it.
-pub(crate) fn read_surveyed(file: &Path, options: &MappingOptions) -> Result<SurveyedLog, Failure> {
+pub(crate) fn read_surveyed(
+    file: &Path,
+    options: &MappingOptions,
+    topics: &TopicArguments,
+) -> Result<SurveyedLog, Failure> {
     let source = Source::open(file)?;
     match source.kind() {
-        FileKind::LaserLog(_) | FileKind::Text | FileKind::Empty => surveyed(file, source, options),
+        FileKind::LaserLog(_)
+        | FileKind::Recording(_)
+        | FileKind::Table
+        | FileKind::Text
+        | FileKind::Empty => surveyed(file, source, options, topics),
         _ => Err(source.unfit("a laser log")),
     }
 }
@@ -63,13 +78,20 @@ pub(crate) fn read_surveyed(file: &Path, options: &MappingOptions) -> Result<Sur
 pub(crate) fn read_tracked(
     file: &Path,
     laser: &LaserChoice,
+    topics: &TopicArguments,
     options: &MatchOptions,
 ) -> Result<TrackedLog, Failure> {
     let source = Source::open(file)?;
-    if !matches!(source.kind(), FileKind::LaserLog(_) | FileKind::Text | FileKind::Empty) {
-        return Err(source.unfit("a laser log"));
+    match source.kind() {
+        FileKind::LaserLog(_)
+        | FileKind::Recording(_)
+        | FileKind::Table
+        | FileKind::Text
+        | FileKind::Empty => {}
+        _ => return Err(source.unfit("a laser log")),
     }
-    let log = read_log(file, source, laser)?;
+    keep_on_signals();
+    let log = read_log(file, source, laser, topics)?;
     let bar = progress_bar(log.scans.len() as u64);
     bar.set_message("matching scans");
     let tracked = TrackedLog::new(log, options, |done| {
@@ -79,12 +101,6 @@ pub(crate) fn read_tracked(
     bar.finish_and_clear();
     warn(file, &tracked.warnings());
     Ok(tracked)
-}
-
-fn read_log(file: &Path, source: Source, laser: &LaserChoice) -> Result<LaserLog, Failure> {
-    keep_on_signals();
-    let unreadable = |error| Failure::ReadLog { file: file.to_owned(), error: Box::new(error) };
-    LaserLog::read_with(source.into_content(), &laser.mount()).map_err(unreadable)
 }
 
 /// Shows on standard error how much is done.
@@ -97,13 +113,15 @@ fn progress_bar(length: u64) -> ProgressBar {
     bar
 }
 
-/// A CARMEN log and the places along it, with a progress bar on standard error; warnings go there, too.
+/// A laser log and the places along it, with a progress bar on standard error; warnings go there, too.
 pub(crate) fn surveyed(
     file: &Path,
     source: Source,
     options: &MappingOptions,
+    topics: &TopicArguments,
 ) -> Result<SurveyedLog, Failure> {
-    let log = read_log(file, source, &options.laser)?;
+    keep_on_signals();
+    let log = read_log(file, source, &options.laser, topics)?;
     let scans = log.scans.len() as u64;
     let bar = progress_bar(3 * scans);
     let surveyed = SurveyedLog::new(log, options, |stage, done| {

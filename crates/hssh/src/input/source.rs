@@ -23,6 +23,8 @@ const UTF16_MARKS: [&[u8]; 2] = [b"\xFF\xFE", b"\xFE\xFF"];
 pub(crate) struct Source {
     file: PathBuf,
     kind: FileKind,
+    /// Whether the content is that of the file as it is.
+    is_plain: bool,
     content: Box<dyn BufRead>,
 }
 
@@ -30,6 +32,16 @@ impl Source {
     /// Opens a file; `-` is standard input.
     pub(crate) fn open(file: &Path) -> Result<Self, Failure> {
         let unreadable = |error| Failure::Read { file: file.to_owned(), error };
+        if file.is_dir() {
+            let kind = FileKind::Recording("a folder, perhaps a ROS 2 bag");
+            return Ok(Source {
+                file: file.to_owned(),
+                kind,
+                is_plain: true,
+                content: Box::new(io::empty()),
+            });
+        }
+        let mut is_plain = file.as_os_str() != "-";
         let mut bytes: Box<dyn BufRead> = if file.as_os_str() == "-" {
             Box::new(BufReader::new(io::stdin()))
         } else {
@@ -37,6 +49,7 @@ impl Source {
         };
         if bytes.fill_buf().map_err(unreadable)?.starts_with(GZIP) {
             bytes = Box::new(BufReader::with_capacity(LOOKED_AT as usize, MultiGzDecoder::new(bytes)));
+            is_plain = false;
         }
         let mut beginning = Vec::new();
         let read = bytes.by_ref().take(LOOKED_AT).read_to_end(&mut beginning);
@@ -56,22 +69,37 @@ impl Source {
             return Ok(Source {
                 file: file.to_owned(),
                 kind,
+                is_plain: false,
                 content: Box::new(Cursor::new(text.into_bytes())),
             });
         }
         if beginning.starts_with(UTF8_MARK) {
             beginning.drain(..UTF8_MARK.len());
         }
-        let kind = FileKind::of(&beginning);
+        let mut kind = FileKind::of(&beginning);
+        if matches!(kind, FileKind::Compressed("zstd", _)) && is_plain && is_packed_bag(file) {
+            kind = FileKind::Recording("a bag packed by zstd");
+        }
         if let FileKind::Compressed(..) = kind {
             return Err(Failure::Compressed { file: file.to_owned(), kind });
         }
-        Ok(Source { file: file.to_owned(), kind, content: Box::new(Cursor::new(beginning).chain(rest)) })
+        Ok(Source {
+            file: file.to_owned(),
+            kind,
+            is_plain,
+            content: Box::new(Cursor::new(beginning).chain(rest)),
+        })
     }
 
     /// What it holds.
     pub(crate) fn kind(&self) -> &FileKind {
         &self.kind
+    }
+
+    /// Whether the content is that of the file as it is: neither unpacked nor from standard input.
+    #[cfg(feature = "bags")]
+    pub(crate) fn is_plain(&self) -> bool {
+        self.is_plain
     }
 
     /// The failure of a command that wanted something else.
@@ -94,6 +122,14 @@ impl Source {
         }
         Ok(bytes)
     }
+}
+
+#[cfg(feature = "bags")]
+use hssh_io::is_packed_bag;
+
+#[cfg(not(feature = "bags"))]
+fn is_packed_bag(_: &Path) -> bool {
+    false
 }
 
 /// What editors of one system save as "Unicode"; a half character at the end is replaced.

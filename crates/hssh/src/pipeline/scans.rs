@@ -8,7 +8,7 @@ use crate::answer::{AnswerWarning, Spot, WarningKind};
 /// The lines with scans that cannot be used.
 fn unusable(log: &LaserLog) -> impl Iterator<Item = u64> + '_ {
     log.warnings.iter().filter_map(|warning| match warning {
-        LogWarning::Message { line, kind, .. } if kind == "FLASER" => Some(*line),
+        LogWarning::Message { line, kind, .. } if kind.contains("LASER") => Some(*line),
         _ => None,
     })
 }
@@ -75,8 +75,14 @@ pub(super) fn warnings(log: &LaserLog) -> Vec<AnswerWarning> {
                 (WarningKind::LaserView, None)
             }
             LogWarning::LaserPose { .. } => (WarningKind::LaserPose, None),
+            LogWarning::Remark { .. } => (WarningKind::Recording, None),
+            LogWarning::ScansAlone => (WarningKind::NoOdometry, None),
         };
         match line {
+            Some(scan) if matches!(warning, LogWarning::Jump { is_text: false, .. }) => {
+                let spot = Spot::Scan(scan.saturating_sub(1));
+                AnswerWarning::record(&mut warnings, kind, spot, || warning.to_string());
+            }
             Some(line) => {
                 AnswerWarning::record(&mut warnings, kind, Spot::Line(line), || warning.to_string());
             }
@@ -88,7 +94,11 @@ pub(super) fn warnings(log: &LaserLog) -> Vec<AnswerWarning> {
 
 /// Adds what was decided with little reason along a log.
 pub(super) fn warn_of(found: &[SurveyWarning], log: &LaserLog, warnings: &mut Vec<AnswerWarning>) {
+    let is_told = log.warnings.contains(&LogWarning::ScansAlone);
     for warning in found {
+        if is_told && matches!(warning, SurveyWarning::NoOdometry) {
+            continue;
+        }
         let (kind, scan) = match *warning {
             SurveyWarning::Contradicted { scan, .. } => (WarningKind::ContradictedReturn, scan),
             SurveyWarning::Unconfirmed { scan, .. } => (WarningKind::UnconfirmedReturn, scan),

@@ -26,7 +26,7 @@ pub(crate) fn run(arguments: &MapArguments) -> Result<Status, Failure> {
             "--rank {rank} is not among the {listed} maps that are listed: add --top {rank}, or --all"
         )));
     }
-    let input = read_input(&arguments.file, &options)?;
+    let input = read_input(&arguments.file, &options, &arguments.laser.topics)?;
     if arguments.strict {
         refuse_partial(&arguments.file, input.as_surveyed())?;
     }
@@ -82,8 +82,13 @@ fn refuse_what_needs_a_log(arguments: &MapArguments) -> Result<(), Failure> {
         || arguments.trajectory.is_some()
         || arguments.likeness.is_some()
         || arguments.debug_dir.is_some();
-    if is_asked || !arguments.places.choice().is_usual() || !arguments.laser.choice().is_usual() {
-        let help = "--grid, --trajectory, --likeness, --debug-dir, --fov, --laser-pose and what counts as a place need a laser log: an exploration has no scans";
+    let laser = &arguments.laser;
+    if is_asked
+        || !arguments.places.choice().is_usual()
+        || !laser.choice().is_usual()
+        || laser.topics.is_given()
+    {
+        let help = "--grid, --trajectory, --likeness, --debug-dir, --fov, --laser-pose, --scan, --odom, --base-frame and what counts as a place need a laser log: an exploration has no scans";
         return Err(Failure::Usage(help.to_owned()));
     }
     Ok(())

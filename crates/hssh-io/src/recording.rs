@@ -1,0 +1,182 @@
+//! From a bag to a laser log: what is chosen of it, in order of time, and what could not be used.
+
+use std::collections::BTreeMap;
+use std::path::Path;
+
+use hssh_local::{LaserLog, LogWarning, RecordedScan, Recording, TimedPose};
+
+use crate::choice::{Choice, Odometry, RecordingOptions, choose};
+use crate::clock::{self, Clock, ClockProblem, REACH, seconds};
+use crate::error::RecordingError;
+use crate::gather::{Gathered, Moment, gather};
+use crate::sweep::{SweepProblem, scan, seconds_to_middle};
+
+/// A log with what of the bag was used for it.
+#[derive(Clone, PartialEq, Debug)]
+pub struct ReadRecording {
+    /// The log.
+    pub log: LaserLog,
+    /// What was used, a sentence each: the laser, the odometry, where the one sits on the other.
+    pub used: Vec<String>,
+}
+
+/// Reads a bag: a ROS 1 `.bag`, an MCAP file, a `.db3`, each also packed by zstd as a whole, or the folder of a ROS 2 bag.
+///
+/// # Errors
+/// If it cannot be read, if it has no laser of which scans can be used, or if options ask for what it does not have.
+pub fn read_bag(path: &Path, options: &RecordingOptions) -> Result<ReadRecording, RecordingError> {
+    let gathered = gather(path)?;
+    let choice = choose(&gathered, options)?;
+    let used = used(&gathered, &choice);
+    let recording = recording(&gathered, &choice)?;
+    Ok(ReadRecording { log: LaserLog::from_recording(recording)?, used })
+}
+
+/// What is used, in words.
+pub(crate) fn used(gathered: &Gathered, choice: &Choice<'_>) -> Vec<String> {
+    let Choice { laser, odometry, mount, .. } = choice;
+    let others: Vec<&str> = gathered
+        .lasers
+        .iter()
+        .filter(|other| other.topic != laser.topic && !other.sweeps.is_empty())
+        .map(|other| other.topic.as_str())
+        .collect();
+    let mut used = vec![format!(
+        "scans from {} (frame `{}`, {} beams over {:.0}°){}",
+        laser.topic,
+        laser.frame(),
+        laser.beams(),
+        laser.view(),
+        if others.is_empty() {
+            String::new()
+        } else {
+            format!("; not {}, which --scan chooses", others.join(", "))
+        }
+    )];
+    used.push(match odometry {
+        Odometry::Topic(wheels) => {
+            format!("odometry from {} (`{}` in `{}`)", wheels.topic, wheels.child, wheels.frame)
+        }
+        Odometry::Frames { parent, child, .. } => format!("odometry from /tf (`{child}` in `{parent}`)"),
+        Odometry::None => "odometry from the scans alone".to_owned(),
+    });
+    let [x, y] = mount.at;
+    let turn = mount.turn.to_degrees();
+    if [x, y, turn] != [0.0; 3] || mount.is_upside_down {
+        let hangs = if mount.is_upside_down { " and hangs upside down" } else { "" };
+        used.push(format!(
+            "the laser sits {x:.2} m ahead of the robot's axis, {y:.2} m to its left, is turned by {turn:.1}°{hangs}"
+        ));
+    }
+    used
+}
+
+/// The recording that a choice makes of a bag.
+pub(crate) fn recording(gathered: &Gathered, choice: &Choice<'_>) -> Result<Recording, RecordingError> {
+    let mut warnings: Vec<LogWarning> = Vec::new();
+    let mut warn = |text: String, is_loss: bool| warnings.push(LogWarning::Remark { text, is_loss });
+    for broken in &gathered.contents.breaks {
+        warn(format!("the bag breaks off, and was used up to there: {broken}"), true);
+    }
+    for unreadable in &gathered.unreadable {
+        let (number, reason) = &unreadable.first;
+        let (topic, others) = (&unreadable.topic, unreadable.messages - 1);
+        let more = if others > 0 { format!("; {others} more like it") } else { String::new() };
+        warn(format!("{topic}: message {number} left out: {reason}{more}"), true);
+    }
+    choice.doubts.iter().for_each(|doubt| warn(doubt.clone(), false));
+
+    let moments: Vec<Moment> = choice.laser.sweeps.iter().map(|(moment, _)| *moment).collect();
+    let told: Vec<Moment> = choice.odometry.poses().iter().map(|(moment, _)| *moment).collect();
+    let (clock, problem) = clock::choose(&moments, &told);
+    let first_scans = clock::before_back(clock, &moments);
+    let first_poses = clock::before_back(clock, &told);
+    if let Some(problem) = problem {
+        let lost = moments.len() - first_scans;
+        warn(clock_words(clock, problem, lost), lost > 0);
+    }
+
+    let mut odometry: Vec<TimedPose> = choice.odometry.poses()[..first_poses]
+        .iter()
+        .map(|&(moment, pose)| TimedPose { time: seconds(clock.time(moment)), pose })
+        .collect();
+    odometry.sort_by(|one, other| one.time.total_cmp(&other.time));
+    let (mut scans, problems) = scans(choice, &choice.laser.sweeps[..first_scans], clock);
+    for (problem, (count, first)) in &problems {
+        warn(format!("{}: scan {first} {problem}: left out, {count} in all", choice.laser.topic), true);
+    }
+    if scans.is_empty() {
+        let reason = problems.keys().next().map_or_else(String::new, SweepProblem::to_string);
+        return Err(RecordingError::NoSweep { topic: choice.laser.topic.clone(), reason });
+    }
+    let all = scans.len();
+    if let Some([first, last]) = span(&odometry) {
+        let reach = seconds(REACH);
+        let is_known = |scan: &RecordedScan| (first - reach..=last + reach).contains(&scan.time);
+        if scans.iter().any(is_known) {
+            scans.retain(is_known);
+            let lost = all - scans.len();
+            if lost > 0 {
+                warn(
+                    format!(
+                        "{lost} of {all} scans were taken before odometry begins or after it ends: left out"
+                    ),
+                    true,
+                );
+            }
+        } else {
+            warn("no scan was taken while there is odometry: it is not used".to_owned(), true);
+            odometry.clear();
+        }
+    }
+    Ok(Recording { scans, odometry, laser: choice.mount.at, warnings })
+}
+
+fn span(odometry: &[TimedPose]) -> Option<[f64; 2]> {
+    Some([odometry.first()?.time, odometry.last()?.time])
+}
+
+/// Problems, with how many scans have each, and the first of them, counted from 1.
+type SweepProblems = BTreeMap<SweepProblem, (usize, usize)>;
+
+/// The scans in order of time.
+fn scans(
+    choice: &Choice<'_>,
+    sweeps: &[(Moment, crate::message::LaserScan)],
+    clock: Clock,
+) -> (Vec<RecordedScan>, SweepProblems) {
+    let mut problems = SweepProblems::new();
+    let mut scans = Vec::with_capacity(sweeps.len());
+    for (index, (moment, sweep)) in sweeps.iter().enumerate() {
+        match scan(sweep, &choice.mount) {
+            Ok(scan) => {
+                scans.push(RecordedScan {
+                    scan,
+                    time: seconds(clock.time(*moment)) + seconds_to_middle(sweep),
+                });
+            }
+            Err(problem) => problems.entry(problem).or_insert((0, index + 1)).0 += 1,
+        }
+    }
+    scans.sort_by(|one: &RecordedScan, other| one.time.total_cmp(&other.time));
+    (scans, problems)
+}
+
+fn clock_words(clock: Clock, problem: ClockProblem, lost: usize) -> String {
+    let instead = match (clock, lost) {
+        (Clock::Recorder, 0) => "the times of recording are used instead".to_owned(),
+        (_, 0) => "the times of recording are no better".to_owned(),
+        (_, lost) => {
+            format!("the {lost} scans from there on are left out; was the bag recorded across a restart?")
+        }
+    };
+    match problem {
+        ClockProblem::NoStamps => format!("messages have no time stamps: {instead}"),
+        ClockProblem::Back { seconds, scan } => {
+            format!("time runs backwards by {seconds:.1} s at scan {scan}: {instead}")
+        }
+        ClockProblem::Differ { seconds } => {
+            format!("scans and odometry are stamped by two clocks, {:.1} s apart: {instead}", seconds.abs())
+        }
+    }
+}
