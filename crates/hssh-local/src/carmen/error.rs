@@ -319,7 +319,7 @@ pub enum LogError {
     NothingRecorded,
     /// No usable scan.
     #[error(
-        "the log has no usable laser scan: {lines} lines, among them {messages}{first}; a log needs FLASER messages",
+        "the log has no usable laser scan: {lines} lines, among them {messages}{first}; a log needs FLASER, RAWLASER or ROBOTLASER messages",
         first = first_warning.as_ref().map_or_else(String::new, |warning| format!("; {warning}"))
     )]
     NoScans {

@@ -162,6 +162,9 @@ fn facing(apart: &[[f64; TRIALS]]) -> Facing {
     let (facing, any) = (best(0..FACINGS), best(0..TRIALS));
     if is_better(facing) && angle(facing).abs() > NEGLIGIBLE {
         Facing::Elsewhere(angle(facing))
+    } else if is_nearer(apart, BACK, AHEAD) {
+        // Bare walls fit ahead and back; what little there is besides says back.
+        Facing::Elsewhere(PI)
     } else if is_better(any) && any >= FACINGS {
         if scale(any) > 0.0 { Facing::Scaled(scale(any)) } else { Facing::Unknown }
     } else if is_nearer(apart, AHEAD, BACK) {

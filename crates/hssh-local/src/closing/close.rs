@@ -82,10 +82,10 @@ pub enum ClosingError {
     #[error("the track is no pose graph: {0}")]
     Graph(#[from] GraphError),
     /// A motion that is too uncertain.
-    #[error("the track is too uncertain: {0}")]
+    #[error("the track is too uncertain, and is the odometry in metres and radians? {0}")]
     Uncertain(#[from] UncertaintyError),
     /// No least squares.
-    #[error("the pose graph of the scans cannot be solved: {0}")]
+    #[error("the pose graph of the scans cannot be solved, and is the odometry in metres and radians? {0}")]
     Solve(#[from] SolveError),
 }
 

@@ -103,7 +103,8 @@ fn what_is_no_log_of_a_laser_says_so() {
     let refusal = |text: &str| read(text).unwrap_err().to_string();
     assert_eq!(
         refusal("ODOM 0 0 0\nROBOTLASER1 0 0 0\n"),
-        "the log has no usable laser scan: 2 lines, among them 1 ODOM, 1 `ROBOTLASER1`; a log needs FLASER messages"
+        "the log has no usable laser scan: 2 lines, among them 1 ODOM; line 2: ROBOTLASER1 left out: the message ends after 4 words, 5 are needed; \
+         a log needs FLASER, RAWLASER or ROBOTLASER messages"
     );
     assert!(refusal("FLASER 1 x 0 0 0 0 0 0\n").contains("line 1: FLASER left out: word 3, `x`"));
     assert!(LaserLog::read(&vec![b'a'; 9 << 20][..]).unwrap_err().to_string().contains("no CARMEN log"));
