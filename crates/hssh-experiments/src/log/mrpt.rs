@@ -35,7 +35,7 @@ impl Mrpt {
 pub(super) fn is_installed() -> bool {
     let path = std::env::var_os("PATH").unwrap_or_default();
     let is_there = |program: &&str| std::env::split_paths(&path).any(|folder| folder.join(program).is_file());
-    ["icp-slam", "rbpf-slam", "carmen2rawlog", "python3"].iter().all(|program| is_there(program))
+    ["icp-slam", "rbpf-slam", "carmen2rawlog", "python3"].iter().all(is_there)
 }
 
 /// Runs both, one after the other.

@@ -268,6 +268,8 @@ fn what_comes_after_the_proof_withdraws_nothing_and_has_an_end() {
     };
     // The longest of all tests: its cases share the cores.
     std::thread::scope(|scope| {
-        [(5, 100, 1), (4, 60, 1), (5, 80, 2)].map(|case| scope.spawn(move || try_with(case)));
+        for case in [(5, 100, 1), (4, 60, 1), (5, 80, 2)] {
+            scope.spawn(move || try_with(case));
+        }
     });
 }

@@ -24,6 +24,7 @@ pub(crate) struct Source {
     file: PathBuf,
     kind: FileKind,
     /// Whether the content is that of the file as it is.
+    #[cfg_attr(not(feature = "bags"), expect(dead_code, reason = "only bags are opened once more"))]
     is_plain: bool,
     content: Box<dyn BufRead>,
 }
