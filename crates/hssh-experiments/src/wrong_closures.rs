@@ -8,7 +8,7 @@ use std::process::Command;
 
 use hssh_local::{ClosingOptions, LaserLog, MatchOptions, close_loops, track};
 use hssh_metrics::{
-    Edge, GraphFile, Kernel, Options, Pose, PoseGraph, PoseId, closures, odometry_poses, screen_closures,
+    Edge, GraphFile, Kernel, Options, Pose, PoseGraph, PoseId, odometry_poses, screen_closures,
     solve_from_anywhere, solve_robustly,
 };
 use rand::{RngExt, SeedableRng};
@@ -101,11 +101,10 @@ fn row(
     let options = Options::default();
     let right = solve_from_anywhere(graph, &options)?.poses;
     let (mut spoiled, wrong) = spoiled(graph, &right, part, seed)?;
-    let suspects = suspects(&spoiled);
+    let suspects: Vec<bool> = spoiled.edges().iter().map(is_suspect).collect();
     let start = odometry_poses(&spoiled)?;
     spoiled.set_poses(start)?;
     let off = |poses: &[Pose]| format!("{:.3}", root_mean_square(poses, &right));
-    let is_suspect = |edge: &Edge| edge.to.0 != edge.from.0 + 1;
     let plain = solve_from_anywhere(&spoiled, &options)?.poses;
     let kernel = |edge: &Edge| is_suspect(edge).then_some(Kernel::DynamicCovarianceScaling(THRESHOLD.sqrt()));
     let scaled = solve_robustly(&spoiled, kernel, &options)?.poses;
@@ -132,10 +131,9 @@ fn row(
     Ok(row)
 }
 
-/// Which edges may be wrong: all that do not lead from a pose to the next.
-fn suspects(graph: &PoseGraph) -> Vec<bool> {
-    let closes = closures(graph);
-    graph.edges().iter().zip(closes).map(|(edge, closes)| closes || edge.to.0 != edge.from.0 + 1).collect()
+/// Whether an edge may be wrong: all may that do not lead from a pose to the next.
+fn is_suspect(edge: &Edge) -> bool {
+    edge.to.0 != edge.from.0 + 1
 }
 
 /// The graph with so many wrong closures that they are that part of all, and which edges are wrong.
@@ -147,8 +145,7 @@ fn spoiled(
 ) -> Result<(PoseGraph, Vec<bool>), Box<dyn Error>> {
     let mut random = ChaCha8Rng::seed_from_u64(1000 * seed + (100.0 * part) as u64);
     let mut spoiled = graph.clone();
-    let true_ones: Vec<Edge> =
-        graph.edges().iter().filter(|edge| edge.to.0 != edge.from.0 + 1).copied().collect();
+    let true_ones: Vec<Edge> = graph.edges().iter().filter(|edge| is_suspect(edge)).copied().collect();
     let mut wrong = vec![false; graph.edges().len()];
     let count = (true_ones.len() as f64 * part / (1.0 - part)).round() as usize;
     let poses = right.len() as u32;

@@ -4,44 +4,12 @@
 //! tell, in order of time, and raw odometry between them. Units are metres, radians and seconds.
 
 #[cfg(feature = "bags")]
-mod bag;
-#[cfg(feature = "bags")]
-mod choice;
-#[cfg(feature = "bags")]
-mod clock;
-#[cfg(feature = "bags")]
-mod error;
-#[cfg(feature = "bags")]
-mod frames;
-#[cfg(feature = "bags")]
-mod gather;
-#[cfg(feature = "bags")]
-mod inventory;
-#[cfg(feature = "bags")]
-mod message;
-#[cfg(feature = "bags")]
-mod recording;
-#[cfg(feature = "bags")]
-mod sweep;
+mod ros;
 mod table;
-#[cfg(feature = "bags")]
-mod wire;
 
 #[cfg(feature = "bags")]
-pub use bag::{BagError, with_file};
-#[cfg(feature = "bags")]
-pub use choice::RecordingOptions;
-#[cfg(feature = "bags")]
-pub use error::RecordingError;
-#[cfg(feature = "bags")]
-pub use inventory::{BagAccount, FrameAccount, TopicAccount, bag_account};
-#[cfg(feature = "bags")]
-pub use recording::{ReadRecording, read_bag};
+pub use ros::{
+    BagAccount, BagError, FrameAccount, ReadRecording, RecordingError, RecordingOptions, TopicAccount,
+    bag_account, is_packed_bag, read_bag, with_file,
+};
 pub use table::{TableError, TableOptions, is_table, read_table};
-
-/// Whether a file holds a bag that zstd compressed as a whole.
-#[cfg(feature = "bags")]
-#[must_use]
-pub fn is_packed_bag(file: &std::path::Path) -> bool {
-    bag::holds_bag(file)
-}

@@ -6,11 +6,11 @@ use std::collections::BTreeMap;
 pub type VisitPair = [usize; 2];
 
 /// Pairs of visits that are known to be to the same place, or known not to be. No map that says otherwise explains the exploration.
+///
+/// What follows of the pairs is kept instead of them: two that say the same are equal.
 #[derive(Clone, PartialEq, Eq, Debug, Default)]
 pub struct VisitConstraints {
-    same: Vec<VisitPair>,
-    different: Vec<VisitPair>,
-    /// By the later visit: the earlier ones, each with whether it is to the same place.
+    /// By the later visit: earlier ones, each with whether it is to the same place.
     by_later: BTreeMap<usize, Vec<(usize, bool)>>,
 }
 
@@ -71,25 +71,7 @@ impl VisitConstraints {
             said.sort_unstable();
             said.dedup();
         }
-        Ok(VisitConstraints { same: same.to_vec(), different: different.to_vec(), by_later })
-    }
-
-    /// Whether there are none.
-    #[must_use]
-    pub fn is_empty(&self) -> bool {
-        self.by_later.is_empty()
-    }
-
-    /// The pairs said to be at the same place.
-    #[must_use]
-    pub fn same(&self) -> &[VisitPair] {
-        &self.same
-    }
-
-    /// The pairs said to be at different places.
-    #[must_use]
-    pub fn different(&self) -> &[VisitPair] {
-        &self.different
+        Ok(VisitConstraints { by_later })
     }
 
     /// Whether all visits exist, the last one being that.
@@ -97,9 +79,10 @@ impl VisitConstraints {
     /// # Errors
     /// If one does not.
     pub fn check(&self, last: usize) -> Result<(), ConstraintError> {
-        match self.same.iter().chain(&self.different).flatten().find(|&&visit| visit > last) {
-            Some(&visit) => Err(ConstraintError::Visit { visit, last }),
-            None => Ok(()),
+        // The last visit of all pairs is the later one of something.
+        match self.by_later.last_key_value() {
+            Some((&visit, _)) if visit > last => Err(ConstraintError::Visit { visit, last }),
+            _ => Ok(()),
         }
     }
 
@@ -147,6 +130,12 @@ mod tests {
             Err(ConstraintError::Contradiction([1, 5]))
         );
         assert_eq!(VisitConstraints::new(&[[4, 4]], &[]), Err(ConstraintError::Itself(4)));
+        assert_eq!(
+            constraints,
+            VisitConstraints::new(&[[1, 5], [5, 3]], &[[2, 3]]).unwrap(),
+            "the same in other words"
+        );
+        assert_eq!(constraints.check(5), Ok(()));
         assert_eq!(constraints.check(4), Err(ConstraintError::Visit { visit: 5, last: 4 }));
     }
 }

@@ -41,8 +41,7 @@ impl Experience {
     }
 
     /// The same, with what is known from elsewhere of which visits are to one place.
-    #[must_use]
-    pub fn with_constraints(self, constraints: VisitConstraints) -> Self {
+    pub(crate) fn with_constraints(self, constraints: VisitConstraints) -> Self {
         Experience { constraints, ..self }
     }
 

@@ -234,6 +234,9 @@ impl<'a> Walk<'a> {
             .filter(|([_, later], _)| *later == visit)
             .map(|([earlier, _], is_same)| (self.branch[*earlier].at.place, *is_same))
             .collect();
+        if earlier.is_empty() {
+            return;
+        }
         let is_allowed = |choice: &Choice| {
             let place = match choice {
                 Choice::Moved(to) | Choice::Closure { to, .. } => Some(to.place),

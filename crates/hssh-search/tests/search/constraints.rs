@@ -4,10 +4,11 @@ use std::collections::BTreeSet;
 
 use hssh_causal::Exploration;
 use hssh_search::{
-    ConstraintError, Limits, Mapper, MapperBuilder, MapperError, Order, PosteriorModel, VisitConstraints,
+    ConstraintError, Limits, Mapper, MapperBuilder, MapperError, Order, PosteriorModel, Reader,
+    VisitConstraints,
 };
 use hssh_verify::verify;
-use hssh_world::{DriftModel, grid, snake};
+use hssh_world::{DriftModel, ErrorRates, grid, snake};
 use proptest::prelude::*;
 
 use crate::cases::case;
@@ -80,6 +81,31 @@ fn the_most_probable_map_of_those_that_agree_is_proved() {
     let visits = denied.visits(denied.maps(1)[0].node);
     assert_ne!(visits[earlier].place, visits[later].place);
     verify(&denied.certificate(&exploration).unwrap(), &exploration).unwrap();
+}
+
+/// With readings, too: where perception errs, other accounts are found that say what is known.
+#[test]
+fn accounts_agree_with_what_is_known() {
+    let world = grid(3, 3, 8.0).unwrap();
+    let route = world.route_through(&snake(3, 3)).unwrap();
+    let told = world.misperceive(&route, &DriftModel::default(), ErrorRates::all(0.05), 1).unwrap();
+    let model = PosteriorModel::evidence(&told.exploration).unwrap();
+    let limits = Limits { nodes: Some(100_000), ..Limits::default() };
+    let reader = Reader { limits, patience: Some(200), ..Reader::new(model) };
+    let visits = |constraints: VisitConstraints| {
+        let reader = Reader { constraints, ..reader.clone() };
+        reader.read(&told.exploration).unwrap().maps[0].visits()
+    };
+    let free = visits(VisitConstraints::default());
+    let earlier_of =
+        |later: usize| free[..later].iter().position(|place| place.is_some() && *place == free[later]);
+    let (earlier, later) = (1..free.len())
+        .find_map(|later| Some((earlier_of(later)?, later)))
+        .expect("the robot was back somewhere");
+    let denied = visits(VisitConstraints::new(&[], &[[earlier, later]]).unwrap());
+    assert!(denied[later].is_none() || denied[earlier] != denied[later], "{denied:?}");
+    let agreed = visits(VisitConstraints::new(&[[later, earlier]], &[]).unwrap());
+    assert!(agreed[later].is_some() && agreed[earlier] == agreed[later], "{agreed:?}");
 }
 
 #[test]

@@ -31,7 +31,7 @@ pub(crate) struct ExploreArguments {
 
 #[derive(Debug, Args)]
 pub(crate) struct TrackArguments {
-    /// The log: CARMEN text with FLASER messages, plain or gzip; `-` reads standard input.
+    /// The log: CARMEN text, plain or gzip, a ROS bag, or a table of scans; `-` reads standard input.
     pub(crate) log: PathBuf,
     /// Write where every scan was taken, in TUM form: time x y z qx qy qz qw, a line for each scan in the order of the
     /// log, in metres in the frame of the first.

@@ -63,13 +63,18 @@ pub(crate) fn read_surveyed(
     options: &MappingOptions,
     topics: &TopicArguments,
 ) -> Result<SurveyedLog, Failure> {
+    surveyed(file, open_log(file)?, options, topics)
+}
+
+/// What is in a file, if it may be a laser log.
+fn open_log(file: &Path) -> Result<Source, Failure> {
     let source = Source::open(file)?;
     match source.kind() {
         FileKind::LaserLog(_)
         | FileKind::Recording(_)
         | FileKind::Table
         | FileKind::Text
-        | FileKind::Empty => surveyed(file, source, options, topics),
+        | FileKind::Empty => Ok(source),
         _ => Err(source.unfit("a laser log")),
     }
 }
@@ -81,15 +86,7 @@ pub(crate) fn read_tracked(
     topics: &TopicArguments,
     options: &MatchOptions,
 ) -> Result<TrackedLog, Failure> {
-    let source = Source::open(file)?;
-    match source.kind() {
-        FileKind::LaserLog(_)
-        | FileKind::Recording(_)
-        | FileKind::Table
-        | FileKind::Text
-        | FileKind::Empty => {}
-        _ => return Err(source.unfit("a laser log")),
-    }
+    let source = open_log(file)?;
     keep_on_signals();
     let log = read_log(file, source, laser, topics)?;
     let bar = progress_bar(log.scans.len() as u64);

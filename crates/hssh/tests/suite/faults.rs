@@ -86,7 +86,7 @@ fn graphs() -> Vec<Fault> {
 fn logs(ring: &str) -> Vec<Fault> {
     let map = "map FILE --planar";
     let limit = "PARAM robot_front_laser_max 30.00";
-    let right = "posterior with proof: proved the best map (";
+    let right = "posterior with proof: proved the best map (4 of 4 travels explained)";
     let scaled = |factor: f64| driven(ring, |[x, y, theta]| [factor * x, factor * y, theta]);
     let times = |factor: f64| {
         let longer = |word: String| (factor * word.parse::<f64>().unwrap()).to_string();
@@ -137,11 +137,18 @@ fn logs(ring: &str) -> Vec<Fault> {
         fault("ranges in millimetres", map, times(1000.0), 2, "millimetres"),
         fault("a word among the beams", map, odd("abc"), 0, right),
         fault("-1.#IND among the beams", map, odd("-1.#IND"), 0, right),
-        fault("beams missing in a third", map, cut, 0, "PARTIAL: 17"),
+        fault("beams missing in a third", map, cut, 0, "PARTIAL: 177 of 532 scans"),
         fault("broken off", map, half, 0, "PARTIAL: line"),
         fault("upside down", map, seen(ring, mirrored), 0, "DOUBTFUL: the walls turn with the robot"),
         fault("looks to the right", map, aside.clone(), 0, "DOUBTFUL: the walls do not come"),
-        fault("the same, told", "map FILE --planar --laser-pose=0,0,-45", aside, 0, right),
+        // Half a view misses a way out at times: what is asked here is that nothing is doubted.
+        fault(
+            "the same, told",
+            "map FILE --planar --laser-pose=0,0,-45",
+            aside,
+            0,
+            "posterior with proof: proved the best map",
+        ),
         fault("a view too wide", "map FILE --planar --fov 270", ring, 0, "DOUBTFUL: the walls do not turn"),
         fault(
             "looks back",

@@ -2,7 +2,7 @@
 
 use nalgebra::{Isometry3, Quaternion, Translation3, UnitQuaternion};
 
-use crate::wire::{Fields, Wire, WireError};
+use crate::ros::wire::{Fields, Wire, WireError};
 
 /// What a topic carries.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]

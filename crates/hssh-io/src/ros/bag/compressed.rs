@@ -31,8 +31,9 @@ pub(super) fn unpacked(file: &Path) -> Result<NamedTempFile, BagError> {
     }
 }
 
-/// Whether a file that zstd compressed begins as a bag does.
-pub(crate) fn holds_bag(file: &Path) -> bool {
+/// Whether a file holds a bag that zstd compressed as a whole.
+#[must_use]
+pub fn is_packed_bag(file: &Path) -> bool {
     let Ok(source) = File::open(file) else { return false };
     let Ok(decoder) = zstd::stream::read::Decoder::new(source) else { return false };
     let mut beginning = Vec::new();

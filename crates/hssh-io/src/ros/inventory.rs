@@ -5,11 +5,11 @@ use std::path::Path;
 
 use serde::Serialize;
 
-use crate::choice::{RecordingOptions, choose};
-use crate::clock::seconds;
-use crate::error::RecordingError;
-use crate::gather::{Gathered, Moment, gather};
-use crate::recording::{recording, used};
+use crate::ros::choice::{RecordingOptions, choose};
+use crate::ros::clock::seconds;
+use crate::ros::error::RecordingError;
+use crate::ros::gather::{Gathered, Moment, gather};
+use crate::ros::recording::{recording, used};
 
 /// A pause between messages is a gap if it is so many times the usual one…
 const TIMES_USUAL: f64 = 5.0;
@@ -117,7 +117,7 @@ pub fn bag_account(path: &Path, options: &RecordingOptions) -> Result<BagAccount
     Ok(account)
 }
 
-fn topic_account(gathered: &Gathered, topic: &crate::bag::BagTopic, span: f64) -> TopicAccount {
+fn topic_account(gathered: &Gathered, topic: &crate::ros::bag::BagTopic, span: f64) -> TopicAccount {
     let laser = gathered.lasers.iter().find(|laser| laser.topic == topic.name);
     let wheels = gathered.wheels.iter().find(|wheels| wheels.topic == topic.name);
     let moments: Vec<Moment> = match (laser, wheels) {

@@ -1,8 +1,8 @@
 //! Why a recording cannot be used, and what to do.
 
-use crate::bag::BagError;
-use crate::gather::Gathered;
-use crate::message::MessageType;
+use crate::ros::bag::BagError;
+use crate::ros::gather::Gathered;
+use crate::ros::message::MessageType;
 
 /// Why a recording cannot be used.
 #[derive(Debug, thiserror::Error)]

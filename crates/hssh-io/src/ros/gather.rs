@@ -5,10 +5,10 @@ use std::path::Path;
 use hssh_metrics::Pose;
 use nalgebra::Isometry3;
 
-use crate::bag::{self, BagContents, BagError, BagMessage};
-use crate::frames::Frames;
-use crate::message::{LaserScan, MessageType, Odometry, Transform};
-use crate::sweep::exact;
+use crate::ros::bag::{self, BagContents, BagError, BagMessage};
+use crate::ros::frames::Frames;
+use crate::ros::message::{LaserScan, MessageType, Odometry, Transform};
+use crate::ros::sweep::exact;
 
 /// When something was, by two clocks: nanoseconds.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]

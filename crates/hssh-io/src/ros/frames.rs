@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use nalgebra::Isometry3;
 
-use crate::message::Transform;
+use crate::ros::message::Transform;
 
 /// A frame that turns or moves by more in its parent is one that moves: metres and radians.
 const STILL: (f64, f64) = (0.02, 0.02);
@@ -90,7 +90,7 @@ mod tests {
     use nalgebra::{Translation3, UnitQuaternion};
 
     use super::*;
-    use crate::message::Header;
+    use crate::ros::message::Header;
 
     fn link(frames: &mut Frames, parent: &str, child: &str, x: f64, yaw: f64) {
         let rotation = UnitQuaternion::from_euler_angles(0.0, 0.0, yaw);

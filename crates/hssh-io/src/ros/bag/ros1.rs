@@ -7,7 +7,7 @@ use std::path::Path;
 
 use super::ros1_record::{Fields, exactly, header, op, u32};
 use super::{BagContents, BagError, BagMessage, Visit};
-use crate::wire::Wire;
+use crate::ros::wire::Wire;
 
 /// The line that all bags of the format begin with.
 const VERSION: &[u8] = b"#ROSBAG V2.0\n";

@@ -5,11 +5,11 @@ use std::path::Path;
 
 use hssh_local::{LaserLog, LogWarning, RecordedScan, Recording, TimedPose};
 
-use crate::choice::{Choice, Odometry, RecordingOptions, choose};
-use crate::clock::{self, Clock, ClockProblem, REACH, seconds};
-use crate::error::RecordingError;
-use crate::gather::{Gathered, Moment, gather};
-use crate::sweep::{SweepProblem, scan, seconds_to_middle};
+use crate::ros::choice::{Choice, Odometry, RecordingOptions, choose};
+use crate::ros::clock::{self, Clock, ClockProblem, REACH, seconds};
+use crate::ros::error::RecordingError;
+use crate::ros::gather::{Gathered, Moment, gather};
+use crate::ros::sweep::{SweepProblem, scan, seconds_to_middle};
 
 /// A log with what of the bag was used for it.
 #[derive(Clone, PartialEq, Debug)]
@@ -142,7 +142,7 @@ type SweepProblems = BTreeMap<SweepProblem, (usize, usize)>;
 /// The scans in order of time.
 fn scans(
     choice: &Choice<'_>,
-    sweeps: &[(Moment, crate::message::LaserScan)],
+    sweeps: &[(Moment, crate::ros::message::LaserScan)],
     clock: Clock,
 ) -> (Vec<RecordedScan>, SweepProblems) {
     let mut problems = SweepProblems::new();

@@ -1,7 +1,7 @@
 //! Time in a bag: each message has the stamp of its sender and the time when it was recorded, by clocks that may differ, stand
 //! still or go back.
 
-use crate::gather::Moment;
+use crate::ros::gather::Moment;
 
 /// Stamps that go back by more than this are of a clock that was set, not of messages that overtook one another: nanoseconds.
 const BACK: i64 = 1_000_000_000;

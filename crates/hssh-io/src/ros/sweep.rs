@@ -6,7 +6,7 @@ use std::f64::consts::TAU;
 use hssh_local::Scan;
 use nalgebra::{Isometry3, Vector3};
 
-use crate::message::LaserScan;
+use crate::ros::message::LaserScan;
 
 /// A laser of which the axis leans by more than this from the vertical does not look along the floor: radians.
 const LEVEL: f64 = 0.35;
@@ -137,7 +137,7 @@ mod tests {
     use nalgebra::UnitQuaternion;
 
     use super::*;
-    use crate::message::Header;
+    use crate::ros::message::Header;
 
     fn sweep(angle_min: f32, angle_increment: f32, ranges: &[f32]) -> LaserScan {
         let header = Header { stamp: 0, frame: String::new() };

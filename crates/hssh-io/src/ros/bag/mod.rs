@@ -11,11 +11,10 @@ use std::fs::File;
 use std::io::{self, Read};
 use std::path::{Path, PathBuf};
 
-use crate::message::MessageType;
-use crate::wire::Wire;
+use crate::ros::message::MessageType;
+use crate::ros::wire::Wire;
 
-pub(crate) use compressed::holds_bag;
-pub use compressed::with_file;
+pub use compressed::{is_packed_bag, with_file};
 
 /// Why a bag cannot be read.
 #[derive(Debug, thiserror::Error)]

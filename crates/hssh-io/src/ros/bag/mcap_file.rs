@@ -14,7 +14,7 @@ use mcap::sans_io::{
 use mcap::{McapError, Summary, parse_record};
 
 use super::{BagContents, BagError, BagMessage, Visit};
-use crate::wire::Wire;
+use crate::ros::wire::Wire;
 
 /// No record is larger, in bytes: what says so is damaged.
 const LARGEST: usize = 1 << 30;

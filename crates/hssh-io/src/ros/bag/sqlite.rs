@@ -6,7 +6,7 @@ use rusqlite::types::ValueRef;
 use rusqlite::{Connection, OpenFlags};
 
 use super::{BagContents, BagError, BagMessage, Visit};
-use crate::wire::Wire;
+use crate::ros::wire::Wire;
 
 /// How zstd begins: messages may be compressed one by one.
 const ZSTD: &[u8] = &[0x28, 0xB5, 0x2F, 0xFD];

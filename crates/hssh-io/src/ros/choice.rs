@@ -2,9 +2,9 @@
 
 use hssh_metrics::Pose;
 
-use crate::error::RecordingError;
-use crate::gather::{Gathered, Laser, Moment, Wheels, planar};
-use crate::sweep::Mount;
+use crate::ros::error::RecordingError;
+use crate::ros::gather::{Gathered, Laser, Moment, Wheels, planar};
+use crate::ros::sweep::Mount;
 
 /// Frames that robots call the one of their body.
 const BASES: [&str; 4] = ["base_link", "base_footprint", "base", "base_stabilized"];

@@ -7,11 +7,11 @@ const LARGEST: u32 = 1 << 30;
 
 /// What a record is, by its field `op`.
 pub(super) mod op {
-    pub(in crate::bag) const MESSAGE: u8 = 2;
-    pub(in crate::bag) const BAG: u8 = 3;
-    pub(in crate::bag) const CHUNK: u8 = 5;
-    pub(in crate::bag) const CHUNK_INFO: u8 = 6;
-    pub(in crate::bag) const CONNECTION: u8 = 7;
+    pub(in crate::ros::bag) const MESSAGE: u8 = 2;
+    pub(in crate::ros::bag) const BAG: u8 = 3;
+    pub(in crate::ros::bag) const CHUNK: u8 = 5;
+    pub(in crate::ros::bag) const CHUNK_INFO: u8 = 6;
+    pub(in crate::ros::bag) const CONNECTION: u8 = 7;
 }
 
 /// Named fields of any bytes.
