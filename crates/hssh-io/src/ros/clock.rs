@@ -135,7 +135,7 @@ mod tests {
     #[test]
     fn seconds_are_the_nearest_ones() {
         assert_eq!(seconds(21_019_900_000), 21.0199);
-        assert_eq!(seconds(1_532_618_495_620_082_974), 1_532_618_495.620_083);
+        assert_eq!(seconds(1_532_618_495_620_082_974), 1_532_618_495.620_082_9);
         assert_eq!(seconds(-1_500_000_000), -1.5);
     }
 }
