@@ -18,7 +18,9 @@ pub(crate) fn run() -> Result<(), Box<dyn Error>> {
         let lean = ["--package", "hssh", "--package", "hssh-metrics", "--no-default-features"];
         Ok(cmd!(shell, "cargo clippy {lean...} --all-targets -- -D warnings").run()?)
     })?;
-    step("tests", || Ok(cmd!(shell, "cargo test --workspace").run()?))?;
+    // The same random cases in every run: a change is refused for what it breaks, not for a case that was broken before.
+    let tests = cmd!(shell, "cargo test --workspace").env("PROPTEST_RNG_SEED", "2005");
+    step("tests", || Ok(tests.run()?))?;
     step("documentation", || {
         Ok(cmd!(shell, "cargo doc --workspace --no-deps").env("RUSTDOCFLAGS", "-Dwarnings").run()?)
     })?;

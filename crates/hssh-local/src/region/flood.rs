@@ -56,11 +56,15 @@ impl Basins {
         label
     }
 
-    /// Joins the basins that meet at a cell with this clearance, where they are one.
-    fn meet(&mut self, met: &mut [u32], clearance: f32, joining: Joining) {
+    /// Joins the basins that meet at a cell with this clearance, where they are one; the joined basin, if there is one,
+    /// which the cell belongs to, as its parts hang together by it.
+    ///
+    /// The smaller a basin, the sooner it is one with another: those that are joined are the smallest, in one basin.
+    fn meet(&mut self, met: &mut [u32], clearance: f32, joining: Joining) -> Option<u32> {
         met.sort_unstable_by(|&a, &b| {
             self.peak[b as usize].total_cmp(&self.peak[a as usize]).then(a.cmp(&b))
         });
+        let mut joined = None;
         for lower in (1..met.len()).rev() {
             let peak = f64::from(self.peak[met[lower] as usize]);
             let is_one = f64::from(clearance) >= joining.as_wide * peak
@@ -69,8 +73,10 @@ impl Basins {
             if is_one {
                 // The narrowest of the wider ones: what is most alike.
                 self.parent[met[lower] as usize] = met[lower - 1];
+                joined = Some(met[lower - 1]);
             }
         }
+        joined
     }
 }
 
@@ -100,10 +106,7 @@ pub(super) fn flood(field: &DistanceField, joining: Joining) -> Pieces {
         labels[index] = match count {
             0 => basins.add(index as u32, distance),
             1 => met[0],
-            _ => {
-                basins.meet(&mut met[..count], distance, joining);
-                basins.root(nearest.1)
-            }
+            _ => basins.meet(&mut met[..count], distance, joining).unwrap_or(nearest.1),
         };
     }
     numbered(labels, basins, joining)
