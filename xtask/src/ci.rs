@@ -5,7 +5,7 @@ use std::time::Instant;
 
 use xshell::{Shell, cmd};
 
-use crate::{root, tidy};
+use crate::{page, root, tidy};
 
 /// `cargo xtask ci`.
 pub(crate) fn run() -> Result<(), Box<dyn Error>> {
@@ -21,6 +21,7 @@ pub(crate) fn run() -> Result<(), Box<dyn Error>> {
     // The same random cases in every run: a change is refused for what it breaks, not for a case that was broken before.
     let tests = cmd!(shell, "cargo test --workspace").env("PROPTEST_RNG_SEED", "2005");
     step("tests", || Ok(tests.run()?))?;
+    step("page", || page::run(None))?;
     step("documentation", || {
         Ok(cmd!(shell, "cargo doc --workspace --no-deps").env("RUSTDOCFLAGS", "-Dwarnings").run()?)
     })?;

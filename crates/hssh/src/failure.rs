@@ -5,6 +5,7 @@ use std::process::ExitCode;
 
 use hssh::answer::{Answer, PictureError, VerdictKind};
 use hssh::kind::FileKind;
+use hssh::page::PageError;
 use hssh::pipeline::{PipelineError, SearchFailure};
 use hssh_causal::ParseError;
 use hssh_draw::TreeError;
@@ -152,6 +153,15 @@ fn advice(kind: &FileKind) -> String {
     match kind.advice() {
         "" => String::new(),
         advice => format!("\nhelp: {advice}"),
+    }
+}
+
+impl From<PageError> for Failure {
+    fn from(error: PageError) -> Self {
+        match error {
+            PageError::Pipeline(error) => error.into(),
+            PageError::Picture(error) => error.into(),
+        }
     }
 }
 

@@ -44,6 +44,7 @@ pub mod account;
 pub mod answer;
 pub mod export;
 pub mod kind;
+pub mod page;
 pub mod pipeline;
 
 #[doc(inline)]
@@ -65,3 +66,8 @@ pub use hssh_world as world;
 #[cfg(doctest)]
 #[doc = include_str!("../../../README.md")]
 struct Readme;
+
+/// What is said about pages, so that its example is tested.
+#[cfg(doctest)]
+#[doc = include_str!("../../../docs/report.md")]
+struct Report;

@@ -2,7 +2,7 @@
 
 use hssh_draw::{Bearings, Drawing, DrawingError, MapOptions, draw_map, map_to_dot};
 use hssh_metrics::Pose;
-use hssh_topology::PlaceId;
+use hssh_topology::{PlaceId, TopologicalMap};
 use nalgebra::Matrix2;
 
 use super::error::DisagreementError;
@@ -55,6 +55,18 @@ impl MapPicture {
             ..MapOptions::default()
         };
         Ok(MapPicture { rebuilt, drawing, options })
+    }
+
+    /// The map, grown as it was found.
+    #[must_use]
+    pub fn map(&self) -> &TopologicalMap {
+        &self.rebuilt.map
+    }
+
+    /// Where its places are drawn, and which way their ends point.
+    #[must_use]
+    pub fn drawing(&self) -> &Drawing {
+        &self.drawing
     }
 
     /// As SVG.

@@ -1,6 +1,7 @@
 //! The command line.
 
 mod local;
+mod page;
 mod search;
 
 use std::path::PathBuf;
@@ -14,6 +15,7 @@ pub(crate) use local::{
     ExploreArguments, ExportKind, LaserArguments, PlaceArguments, SimulateArguments, StarsArguments,
     TopicArguments, TrackArguments,
 };
+pub(crate) use page::PageArguments;
 pub(crate) use search::SearchArguments;
 
 /// Topological maps of places that look alike: all that explain an exploration, ranked and drawn.
@@ -109,6 +111,8 @@ pub(crate) struct MapArguments {
     /// each visit, the map, and the building.
     #[arg(long, value_name = "FOLDER")]
     pub(crate) debug_dir: Option<PathBuf>,
+    #[command(flatten)]
+    pub(crate) page: PageArguments,
     #[command(flatten)]
     pub(crate) places: PlaceArguments,
     #[command(flatten)]

@@ -6,6 +6,7 @@ pub(crate) mod explore;
 mod floor;
 pub(crate) mod graph;
 pub(crate) mod map;
+mod page;
 pub(crate) mod simulate;
 mod stages;
 pub(crate) mod stars;

@@ -9,7 +9,7 @@ use hssh_metrics::{PoseGraph, UniformPrior};
 use hssh_search::{
     Appearance, Corridor, Distinction, Goal, LINEAR_TRUST, LevelCounts, Limits, MapPrior, Mapper,
     MapperBuilder, Metrical, Order, PlacePrior, PosteriorModel, Prediction, Proving, RankedMap, Report,
-    Score, distinguish, place_by_odometry,
+    Score, Tree, distinguish, place_by_odometry,
 };
 use hssh_topology::{GenusRank, Hypothesis, MapOlp, Measure, Position, Preference, StarCatalog};
 
@@ -73,17 +73,7 @@ impl Task<'_> {
             return self.count();
         }
         let (objective, order) = self.method.objective_and_order();
-        let builder = match objective {
-            SearchObjective::Preference => self.builder(),
-            SearchObjective::Posterior => self.builder().posterior(self.model()?),
-        };
-        let builder = builder.constraints(self.options.visits.constraints()?);
-        let builder = builder.order(order).goal(self.goal()).proving(Proving {
-            best: self.options.posterior.best,
-            rest: self.options.posterior.rest,
-            patience: None,
-        });
-        let builder = builder.appearance(self.likeness.clone().unwrap_or_default());
+        let builder = self.configured(|| model(self.exploration, self.options), self.goal())?;
         let mapper = builder.explain(self.exploration).map_err(SearchFailure::from)?;
         let (report, maps) = mapper.answer(self.options.listed.unwrap_or(usize::MAX));
         let found = |(index, map): (usize, RankedMap)| {
@@ -106,6 +96,26 @@ impl Task<'_> {
             ranking: maps.into_iter().enumerate().map(found).collect(),
             mapper: Some(Box::new(mapper)),
         })
+    }
+
+    /// How to search, with what makes a map probable, and which maps to accept.
+    pub(super) fn configured(
+        &self,
+        model: impl FnOnce() -> Result<PosteriorModel, PipelineError>,
+        goal: Goal,
+    ) -> Result<MapperBuilder, PipelineError> {
+        let (objective, order) = self.method.objective_and_order();
+        let builder = match objective {
+            SearchObjective::Preference => self.builder(),
+            SearchObjective::Posterior => self.builder().posterior(model()?),
+        };
+        let builder = builder.constraints(self.options.visits.constraints()?);
+        let builder = builder.order(order).goal(goal).proving(Proving {
+            best: self.options.posterior.best,
+            rest: self.options.posterior.rest,
+            patience: None,
+        });
+        Ok(builder.appearance(self.likeness.clone().unwrap_or_default()))
     }
 
     fn count(self) -> Result<Searched, PipelineError> {
@@ -140,10 +150,6 @@ impl Task<'_> {
     fn limits(&self) -> Limits {
         self.options.limits.of_search()
     }
-
-    fn model(&self) -> Result<PosteriorModel, PipelineError> {
-        model(self.exploration, self.options)
-    }
 }
 
 impl SearchLimits {
@@ -160,10 +166,23 @@ pub(super) fn model(
     exploration: &Exploration,
     options: &MappingOptions,
 ) -> Result<PosteriorModel, PipelineError> {
+    model_with(Corridor::typical_of(exploration).map(PlacePrior::Corridor), options)
+}
+
+/// What makes a map probable for one who knows the travels so far only.
+pub(super) fn model_so_far(options: &MappingOptions) -> Result<PosteriorModel, PipelineError> {
+    model_with(Some(PlacePrior::Typical), options)
+}
+
+/// What makes a map probable, with a prior for new places where the options have none.
+fn model_with(
+    typical: Option<PlacePrior>,
+    options: &MappingOptions,
+) -> Result<PosteriorModel, PipelineError> {
     let posterior = &options.posterior;
     let places = match posterior.area {
         Some(area) => Some(PlacePrior::Uniform(UniformPrior::over_area(area)?)),
-        None => Corridor::typical_of(exploration).map(PlacePrior::Corridor),
+        None => typical,
     };
     let metrical = match posterior.score {
         MetricalScore::Likelihood => Metrical::Likelihood,
@@ -223,6 +242,11 @@ impl Searched {
         let mapper = self.mapper.as_ref()?;
         let best = self.ranking.iter().filter(|found| found.tied).map(|found| found.map.node);
         Some(SearchTree::of(mapper.tree(), mapper.experience(), &best.collect::<Vec<_>>(), most_maps))
+    }
+
+    /// All hypotheses made. `None` if they were only counted.
+    pub(super) fn hypotheses(&self) -> Option<&Tree> {
+        self.mapper.as_ref().map(|mapper| mapper.tree())
     }
 
     /// What the proof rests on, to be checked by another program. `None` if nothing is proved.

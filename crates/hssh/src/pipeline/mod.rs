@@ -5,6 +5,7 @@ mod engine;
 mod error;
 mod input;
 mod laser;
+mod online;
 mod options;
 mod places;
 mod reading;
@@ -15,6 +16,7 @@ pub use engine::Monitor;
 pub use error::{PipelineError, SearchFailure};
 pub use input::{Input, SurveyedLog};
 pub use laser::LaserChoice;
+pub use online::{Belief, History};
 pub use options::{
     GenusOrder, MappingOptions, MetricalScore, OptionsError, PosteriorChoice, PriorKind, SearchChoice,
     SearchLimits, SearchMethod, VisitChoice,
@@ -30,6 +32,7 @@ use hssh_causal::Exploration;
 use hssh_draw::SearchTree;
 use hssh_local::{OccupancyGrid, PerceptionModel, building_map, global_poses, resemblance, visit_frames};
 use hssh_metrics::{Pose, PoseGraph};
+use hssh_search::Tree;
 use hssh_topology::{Isomorphism, Position};
 
 use crate::answer::{Answer, AnswerWarning, AnsweredMap, ReadingAccount, Spot, Verdict, WarningKind};
@@ -89,15 +92,7 @@ pub fn map(input: &Input, options: &MappingOptions, monitor: &Arc<Monitor>) -> R
     };
     if let Some(reading::Read { exploration, account }) = read {
         let corrected = Input::exploration(input.name.clone(), exploration);
-        // What is said of visits that are taken for none is true of no place.
-        let number = |told: usize| account.visits.iter().find(|[other, _]| *other == told as u64);
-        let number = |told: usize| number(told).map(|&[_, visit]| visit as usize);
-        let exact = MappingOptions {
-            visits: options.visits.renumbered(number),
-            readings: ReadingChoice::default(),
-            limits: SearchLimits { travels: None, ..options.limits },
-            ..options
-        };
+        let exact = options.given(&account);
         let mut mapped = map(&corrected, &exact, monitor)?;
         mapped.rest_on(account, warnings);
         mapped.corrected = Some(corrected.exploration);
@@ -226,6 +221,21 @@ impl MappingOptions {
     }
 }
 
+impl MappingOptions {
+    /// What they are for the exploration as it must have been, by an account of what was misread.
+    fn given(&self, account: &ReadingAccount) -> Self {
+        // What is said of visits that are taken for none is true of no place.
+        let number = |told: usize| account.visits.iter().find(|[other, _]| *other == told as u64);
+        let number = |told: usize| number(told).map(|&[_, visit]| visit as usize);
+        MappingOptions {
+            visits: self.visits.renumbered(number),
+            readings: ReadingChoice::default(),
+            limits: SearchLimits { travels: None, ..self.limits },
+            ..self.clone()
+        }
+    }
+}
+
 impl SurveyedLog {
     /// What the laser says of visits: where it shows that the robot was back, another place is improbable; and how much alike
     /// the local maps of all pairs of visits are, times a weight (section 2.4).
@@ -295,6 +305,44 @@ impl Mapped {
     #[must_use]
     pub fn tree(&self, most_maps: usize) -> Option<SearchTree> {
         self.searched.tree(most_maps)
+    }
+
+    /// Tells the exploration again, travel by travel, to the on-line search, and asks it after each for the best map. It goes by the
+    /// options of the answer, but knows nothing that comes later: new places lie where corridors as long as those so far lead. Maps need
+    /// not be closed on the way. Visits and stars are those of the answer; along a log, of its whole survey. The search is given
+    /// up beyond `most_nodes` hypotheses.
+    ///
+    /// # Errors
+    /// If the search cannot begin; then there would be no answer either.
+    pub fn history(
+        &self,
+        input: &Input,
+        options: &MappingOptions,
+        most_nodes: u64,
+        monitor: &Arc<Monitor>,
+    ) -> Result<History, PipelineError> {
+        let considered = self.answer.input.considered as usize;
+        let (exploration, options) = match (&self.corrected, &self.answer.readings) {
+            (Some(corrected), Some(account)) => (corrected.clone(), options.given(account)),
+            _ => (input.exploration.prefix(considered), options.clone()),
+        };
+        let method = options.method_for(&exploration)?;
+        let surveyed = input.surveyed.as_ref();
+        let likeness = surveyed.map(|surveyed| surveyed.likeness(options.posterior.likeness));
+        let task = Task { exploration: &exploration, options: &options, method, likeness, monitor };
+        let mut history = task.history(most_nodes)?;
+        // As in the answer, what the places of a log rest on is a factor.
+        let evidence = surveyed.map_or(1.0, |surveyed| surveyed.evidence().probability);
+        for belief in &mut history.beliefs {
+            belief.probability = belief.probability.map(|range| range.map(|part| part * evidence));
+        }
+        Ok(history)
+    }
+
+    /// All hypotheses that the search made. `None` if they were only counted.
+    #[must_use]
+    pub fn hypotheses(&self) -> Option<&Tree> {
+        self.searched.hypotheses()
     }
 
     /// Where every scan of the log was taken, in the frame of the first place of a map. `None` without a log, without

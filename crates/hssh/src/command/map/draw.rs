@@ -16,16 +16,16 @@ use crate::output::{
 
 /// Whether any picture or file is asked for.
 pub(super) fn is_asked(arguments: &MapArguments) -> bool {
-    let MapArguments { svg, dot, tree, g2o, grid, trajectory, debug_dir, .. } = arguments;
-    [svg, dot, tree, g2o, grid, trajectory, debug_dir].iter().any(|file| file.is_some())
+    let MapArguments { svg, dot, tree, g2o, grid, trajectory, debug_dir, page, .. } = arguments;
+    [svg, dot, tree, g2o, grid, trajectory, debug_dir, &page.html].iter().any(|file| file.is_some())
 }
 
 /// Refuses outputs that cannot be written, before anything is searched.
 pub(super) fn check(arguments: &MapArguments) -> Result<(), Failure> {
-    let MapArguments { svg, dot, tree, g2o, grid, trajectory, certificate, corrected, .. } = arguments;
+    let MapArguments { svg, dot, tree, g2o, grid, trajectory, certificate, corrected, page, .. } = arguments;
     let grid_image = grid_image(grid.as_deref());
-    let outputs =
-        [svg, dot, tree, g2o, grid, trajectory, certificate, corrected, &grid_image].map(Option::as_ref);
+    let outputs = [svg, dot, tree, g2o, grid, trajectory, certificate, corrected, &grid_image, &page.html]
+        .map(Option::as_ref);
     check_outputs(&[&arguments.file], outputs)?;
     check_folder(arguments.debug_dir.as_ref())
 }

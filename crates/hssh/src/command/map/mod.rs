@@ -6,6 +6,7 @@ use hssh::answer::Listing;
 use hssh::pipeline::{Input, Mapped, MappingOptions, SearchMethod, SurveyedLog, map};
 
 use crate::arguments::MapArguments;
+use crate::command::page;
 use crate::command::stages::draw_survey;
 use crate::failure::{Failure, Status};
 use crate::input::{read_input, refuse_partial, warn};
@@ -62,6 +63,9 @@ pub(crate) fn run(arguments: &MapArguments) -> Result<Status, Failure> {
     }
     if no_such_rank.is_some() {
         return Ok(Status::Refused);
+    }
+    if let Some(file) = &arguments.page.html {
+        written.note(page::write(file, &input, &mapped, &options, arguments.rank));
     }
     draw::draw(arguments, &input, &mapped, &mut written)?;
     written.done()?;
