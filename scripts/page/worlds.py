@@ -29,8 +29,8 @@ def nasty():
 
 
 def streets(width, height, seed=1):
-    """A robot that goes through every street of a grid, row by row and then column by column. Every crossing has a sign of its own, so that
-    there is one map; travels are measured, and err."""
+    """A robot that goes through every street of a grid, row by row and then column by column. Every end of every crossing has a sign of its own,
+    so that one map is the simplest; travels are measured, and err."""
     chance = random.Random(seed)
     rows = [(x if y % 2 == 0 else width - 1 - x, y) for y in range(height) for x in range(width)]
     end = rows[-1]
@@ -42,7 +42,7 @@ def streets(width, height, seed=1):
         ends = []
         for direction, (dx, dy) in enumerate(STEPS):
             is_open = 0 <= x + dx < width and 0 <= y + dy < height
-            sign = f" #{x}-{y}" if is_open else ""
+            sign = f" #{x}-{y} {'NESW'[direction]}" if is_open else ""
             ends.append(f'"{NAMES[direction]}{"" if is_open else " closed"} @{90 - 90 * direction}{sign}"')
         return f'"{x}-{y}": [{", ".join(ends)}]'
 

@@ -212,7 +212,8 @@ pub struct PageBelief {
     /// Its probability, at least and at most.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub probability: Option<[f64; 2]>,
-    /// Places with their poses (number, x, y, θ) that are new or lie elsewhere than in the belief before. Empty where nothing is laid out.
+    /// Places with their poses (number, x, y, θ) that are new or lie elsewhere than was told before, by more than 0.02 m or 0.01 rad. Empty where
+    /// nothing is laid out.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub moved: Vec<[f64; 4]>,
 }

@@ -2,15 +2,15 @@
 
 use base64::Engine as _;
 use base64::engine::general_purpose::STANDARD;
-use hssh_local::{OccupancyGrid, encode_png};
+use hssh_local::{Cell, Lattice, Occupancy, OccupancyGrid, encode_png};
 use hssh_metrics::Pose;
 
 use super::data::PageImage;
 
 impl PageImage {
-    /// A grid in its own frame.
+    /// A grid in its own frame, as far as anything is known of it.
     pub(super) fn of(grid: &OccupancyGrid) -> Self {
-        Self::seen_from(grid, Pose::IDENTITY)
+        Self::seen_from(known(grid).as_ref().unwrap_or(grid), Pose::IDENTITY)
     }
 
     /// A grid in the frame of something that is in it.
@@ -27,6 +27,23 @@ impl PageImage {
             turn: rounded(-frame.theta),
         }
     }
+}
+
+/// The part of a grid that holds all that is known; nothing if that is nothing.
+fn known(grid: &OccupancyGrid) -> Option<OccupancyGrid> {
+    let lattice = grid.lattice();
+    let is_known = |&cell: &Cell| grid.get(cell) != Occupancy::Unknown;
+    let columns = || lattice.cells().filter(is_known).map(|cell| cell.column);
+    let rows = || lattice.cells().filter(is_known).map(|cell| cell.row);
+    let (left, right) = (columns().min()?, columns().max()?);
+    let (low, high) = (rows().min()?, rows().max()?);
+    let [x, y] = lattice.origin();
+    let side = lattice.resolution();
+    let origin = [x + f64::from(left) * side, y + f64::from(low) * side];
+    let part = Lattice::new(right - left + 1, high - low + 1, side, origin).ok()?;
+    let cells =
+        part.cells().map(|Cell { column, row }| grid.get(Cell { column: column + left, row: row + low }));
+    OccupancyGrid::new(part, cells.collect()).ok()
 }
 
 /// To the millimetre, or the milliradian: a page shows no more.

@@ -24,7 +24,7 @@ function placeDetail(view, { place: number }) {
   const where = view.map.measured ? ` at (${x.toFixed(1)}, ${y.toFixed(1)}) m` : "";
   return [
     element("h3", {}, `Place ${number}`),
-    element("p", {}, `Star ${star.name}${where}, found on visit ${place.first}, ${counted(place.visits.length, "visit")}.`),
+    element("p", {}, `Star “${star.name}”${where}, found on visit ${place.first}, ${counted(place.visits.length, "visit")}.`),
     double && element("p", { class: "note" }, "The map it is drawn by takes it for the same place as the one beside it."),
     starPicture(star),
     misreadOf(number, null),
@@ -86,7 +86,7 @@ function visitDetail(view, { visit: number, place }) {
     element("p", {}, "To ", placeButton(view, place), `: ${findingWords(view, number)}.`),
     number === 0 && element("p", {}, "Visits count from 0, the start, as --same and --different count them."),
     facts.length > 0 && element("p", {}, `${capital(facts.join("; "))}.`),
-    element("p", {}, `Star ${star.name}, as seen:`),
+    element("p", {}, `Star “${star.name}”, as seen:`),
     starPicture(star, visit.entry, visit.exit),
     misreadOf(null, visit.told),
     visit.picture && localFigure(number),

@@ -18,6 +18,7 @@ function renderData(data) {
 // Draws what depends on what is chosen.
 function render() {
   const view = viewOf(state);
+  state.view = view;
   drawMapCard(view);
   drawDetail(view);
   drawTime(view);
@@ -33,10 +34,11 @@ function show(change) {
   render();
 }
 
-// Chooses a place, a way or a visit, or nothing.
+// Chooses a place, a way or a visit, or nothing: what is drawn stays, and is marked.
 function choose(chosen) {
   state.chosen = chosen;
-  render();
+  markMap(byId("map-picture"), chosenIn(state.view, chosen));
+  drawDetail(state.view);
 }
 
 startTheme();

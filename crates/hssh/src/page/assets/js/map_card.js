@@ -4,7 +4,6 @@ const ARROWS = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowD
 
 function drawMapCard(view) {
   const picture = byId("map-picture");
-  const chosen = chosenIn(view, state.chosen);
   byId("map-card").classList.toggle("empty", !view);
   byId("map-caption").textContent = view ? view.title : "There is no map to draw.";
   refill(byId("map-flip"), flipping());
@@ -15,7 +14,8 @@ function drawMapCard(view) {
     button("◻", () => zoom(picture, view.unit, null), { "aria-label": "Show everything" }),
   ] : null);
   const hadFocus = picture.contains(document.activeElement);
-  drawMap(picture, view, state.data, chosen, choose);
+  drawMap(picture, view, state.data, choose);
+  markMap(picture, chosenIn(view, state.chosen));
   if (hadFocus) (picture.querySelector(".place.chosen") ?? picture.querySelector(".place[tabindex='0']"))?.focus();
   refill(byId("map-legend"), view ? legend(view) : null);
   picture.onkeydown = event => view && onKey(event, view, picture);
@@ -85,9 +85,8 @@ function watchPointer(picture) {
   picture.addEventListener("wheel", event => {
     if (!event.ctrlKey && !event.metaKey) return;
     event.preventDefault();
-    const view = viewOf(state);
-    if (view) zoom(picture, view.unit, event.deltaY > 0 ? 1.15 : 1 / 1.15);
+    if (state.view) zoom(picture, state.view.unit, event.deltaY > 0 ? 1.15 : 1 / 1.15);
   }, { passive: false });
-  window.addEventListener("resize", () => { camera.box = null; drawMapCard(viewOf(state)); });
+  window.addEventListener("resize", () => { camera.box = null; drawMapCard(state.view); });
 }
 

@@ -8,8 +8,8 @@ const camera = { box: null, of: null };
 const PLACE = 9;
 const ROOMY = 44;
 
-// Draws the view; what is chosen is marked, and what the last travel of the view brought.
-function drawMap(picture, view, data, chosen, choose) {
+// Draws the view, with marks for what its last travel brought.
+function drawMap(picture, view, data, choose) {
   if (!view) return refill(picture);
   const frame = boundsOf(view, data);
   const id = `${view.map.rank} ${view.map.grid} ${view.map.measured}`;
@@ -20,8 +20,8 @@ function drawMap(picture, view, data, chosen, choose) {
     layers.grid && view.map.grid !== undefined ? imageIn(data.grids[view.map.grid], view.kind === "belief" ? "grid faint" : "grid") : null,
     way && svg("polyline", { points: way.map(([x, y]) => `${x},${-y}`).join(" "), class: "robot-way" }),
     layers.ellipses && view.kind === "map" ? view.places.map(ellipseOf) : null,
-    view.model.links.map(link => linkOf(view, data, link, chosen, choose)),
-    view.model.places.map((place, number) => placeOf(view, data, place, number, chosen, choose)),
+    view.model.links.map(link => linkOf(view, data, link, choose)),
+    view.model.places.map((place, number) => placeOf(view, data, place, number, choose)),
     robotOf(view));
   zoomed(picture, view.unit);
 }
@@ -82,7 +82,7 @@ function ellipseOf({ x, y, ellipse }) {
 }
 
 // A link leaves and enters its places in the direction of the ends.
-function linkOf(view, data, link, chosen, choose) {
+function linkOf(view, data, link, choose) {
   const [from, to] = link.ends.map(({ place, end }) => ({ ...view.places[place], direction: view.places[place].directions[end] }));
   const gap = apart(from, to);
   const chord = gap > 0 ? Math.atan2(to.y - from.y, to.x - from.x) : from.direction;
@@ -93,8 +93,7 @@ function linkOf(view, data, link, chosen, choose) {
   const d = `M ${from.x} ${-from.y} C ${handle(from, chord)} ${handle(to, chord + Math.PI)} ${to.x} ${-to.y}`;
   const path = view.pathOf.get(key(link.ends[0].place, link.ends[0].end));
   const isLatest = view.kind !== "map" && link.travels.includes(view.model.visits.length - 2);
-  const isChosen = chosen?.kind === "way" && chosen.link === link;
-  const names = ["link", pathClass(view, path), isLatest ? "latest" : "", isChosen ? "chosen" : ""].filter(Boolean).join(" ");
+  const names = ["link", pathClass(view, path), isLatest ? "latest" : ""].filter(Boolean).join(" ");
   const label = `Way ${link.number}: ${link.ends.map(end => endName(view, data, end)).join(" to ")}, ${counted(link.travels.length, "travel")}`;
   const click = () => choose({ kind: "way", travel: link.travels[0] });
   return svg("g", { class: names, role: "button", tabindex: -1, "aria-label": label, "data-way": link.number, click, keydown: event => isPress(event) && click() },
@@ -111,20 +110,31 @@ function pathClass(view, number) {
 
 const endName = (view, data, { place, end }) => `place ${place} by ${data.stars[view.model.places[place].star].ends[end].name}`;
 
-function placeOf(view, data, place, number, chosen, choose) {
+function placeOf(view, data, place, number, choose) {
   const { x, y, directions, double } = view.places[number];
   const star = data.stars[place.star];
-  const isChosen = (chosen?.kind === "place" || chosen?.kind === "visit") && chosen.place === number;
   const isLatest = view.kind !== "map" && place.first === view.model.visits.length - 1;
-  const names = ["place", place.first === 0 ? "start" : "", isLatest ? "latest" : "", double ? "double" : "", isChosen ? "chosen" : ""];
+  const names = ["place", place.first === 0 ? "start" : "", isLatest ? "latest" : "", double ? "double" : ""];
   const label = `Place ${number}, star ${star.name}, ${counted(place.visits.length, "visit")}${double ? ", beside a place that is the same one in the map it is drawn by" : ""}`;
   const ends = star.ends.map((end, index) => endOf(view, { place: number, end: index }, end, directions[index]));
   const click = () => choose({ kind: "place", visit: place.first });
   return svg("g", {
-    class: names.filter(Boolean).join(" "), role: "button", tabindex: isChosen || (!chosen && number === 0) ? 0 : -1, "aria-label": label,
-    "aria-pressed": String(isChosen), "data-place": number, "data-at": `${x} ${-y}`, click, keydown: event => isPress(event) && click(),
+    class: names.filter(Boolean).join(" "), role: "button", "aria-label": label,
+    "data-place": number, "data-at": `${x} ${-y}`, click, keydown: event => isPress(event) && click(),
   }, ends, svg("circle", { r: PLACE + 4, class: "halo" }), svg("circle", { r: PLACE }), svg("text", { y: 3.5, class: "number" }, String(number)),
     layers.names ? svg("text", { y: -16, class: "name" }, star.name) : null, svg("title", {}, label));
+}
+
+// Marks what is chosen. Tab comes to one place only: that one, or the first.
+function markMap(picture, chosen) {
+  const number = chosen?.kind === "place" || chosen?.kind === "visit" ? chosen.place : null;
+  for (const place of picture.querySelectorAll("[data-place]")) {
+    const isChosen = Number(place.dataset.place) === number;
+    place.classList.toggle("chosen", isChosen);
+    place.setAttribute("aria-pressed", String(isChosen));
+    place.setAttribute("tabindex", isChosen || (number === null && place.dataset.place === "0") ? 0 : -1);
+  }
+  for (const way of picture.querySelectorAll("[data-way]")) way.classList.toggle("chosen", chosen?.kind === "way" && chosen.link.number === Number(way.dataset.way));
 }
 
 // A closed end is a bar, a pending gateway an arrow into the open; a link is drawn by itself.

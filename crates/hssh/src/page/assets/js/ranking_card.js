@@ -35,7 +35,7 @@ function differenceOf() {
   const { sentence, parting } = map.difference;
   return element("div", { class: "note", id: "difference" },
     element("p", {}, element("strong", {}, `What tells map ${map.rank} from map 1: `), capital(sentence)),
-    parting && element("p", {}, button(`Show visit ${parting.visit}, where they part`, () => { state.chosen = { kind: "visit", visit: parting.visit }; render(); }, { id: "parting" })));
+    parting && element("p", {}, button(`Show visit ${parting.visit}, where they part`, () => choose({ kind: "visit", visit: parting.visit }), { id: "parting" })));
 }
 
 const COSTS = {

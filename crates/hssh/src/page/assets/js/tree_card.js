@@ -18,7 +18,9 @@ function drawTree() {
     tree.nodes.map((one, number) => one.parent !== undefined && edge(at[one.parent], at[number], one)),
     tree.nodes.map((one, number) => mark(one, at[number], number)));
   Object.assign(picture, { of: tree, onkeydown: event => walkTree(event, tree.nodes, children) });
-  refill(node, element("p", { class: "hint" }, treeWords(tree)), treeLegend(), element("div", { class: "scroll" }, picture));
+  const frame = element("div", { class: "scroll" }, picture);
+  refill(node, element("p", { class: "hint" }, treeWords(tree)), treeLegend(), frame);
+  frame.scrollTop = at[0].y - frame.clientHeight / 2;
   markTree(picture);
 }
 
