@@ -10,7 +10,7 @@ use crate::root;
 pub(crate) fn run(screenshots: Option<&str>) -> Result<(), Box<dyn Error>> {
     let shell = Shell::new()?;
     shell.change_dir(root::root());
-    cmd!(shell, "cargo build --quiet --workspace --bin hssh --profile test").run()?;
+    cmd!(shell, "cargo test --quiet --workspace --test page --no-run").run()?;
     let target = std::env::var_os("CARGO_TARGET_DIR").map_or_else(|| root::root().join("target"), Into::into);
     let program = target.join("debug").join(format!("hssh{}", std::env::consts::EXE_SUFFIX));
     Ok(cmd!(shell, "python3 scripts/page/check.py {program} {screenshots...}").run()?)

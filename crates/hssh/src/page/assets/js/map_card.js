@@ -79,6 +79,7 @@ function watchPointer(picture) {
     camera.box.x -= (event.clientX - last.clientX) * pixel;
     camera.box.y -= (event.clientY - last.clientY) * pixel;
     last = event;
+    camera.isOwn = true;
     picture.setAttribute("viewBox", `${camera.box.x} ${camera.box.y} ${camera.box.width} ${camera.box.height}`);
   });
   for (const end of ["pointerup", "pointercancel"]) window.addEventListener(end, () => { last = null; });
@@ -87,6 +88,6 @@ function watchPointer(picture) {
     event.preventDefault();
     if (state.view) zoom(picture, state.view.unit, event.deltaY > 0 ? 1.15 : 1 / 1.15);
   }, { passive: false });
-  window.addEventListener("resize", () => { camera.box = null; drawMapCard(state.view); });
+  window.addEventListener("resize", () => { camera.isOwn = false; drawMapCard(state.view); });
 }
 

@@ -2,7 +2,8 @@
 
 // Which layers are shown, and which part of the plane: x, y and sizes in metres, y downwards.
 const layers = { grid: true, way: true, names: false, ellipses: true };
-const camera = { box: null, of: null };
+// The reader's own part stays until another map is drawn.
+const camera = { box: null, whole: null, of: null, isOwn: false };
 
 // Pixels of a place, and how large one is drawn where links are long enough.
 const PLACE = 9;
@@ -13,7 +14,7 @@ function drawMap(picture, view, data, choose) {
   if (!view) return refill(picture);
   const frame = boundsOf(view, data);
   const id = `${view.map.rank} ${view.map.grid} ${view.map.measured}`;
-  if (!camera.box || camera.of !== id) Object.assign(camera, { box: fitted(frame, picture), of: id });
+  if (!camera.isOwn || camera.of !== id) Object.assign(camera, { box: fitted(frame, picture), of: id, isOwn: false });
   camera.whole = frame;
   const way = layers.way && view.map.way?.length && view.kind !== "belief" ? wayOf(view, data) : null;
   refill(picture,
@@ -60,6 +61,7 @@ function zoomed(picture, unit) {
 
 // Zooms by a factor, or shows everything.
 function zoom(picture, unit, factor) {
+  camera.isOwn = factor !== null;
   if (!factor) camera.box = fitted(camera.whole, picture);
   else {
     const { x, y, width, height } = camera.box;

@@ -27,7 +27,7 @@ function drawTree() {
 function treeWords({ nodes, made }) {
   const all = nodes.length < made
     ? `${nodes.length} of ${made} hypotheses: first those on the way to the listed maps, then what branches off; a number says how many below are not shown.`
-    : `All ${counted(made, "hypothesis").replace("hypothesiss", "hypotheses")}.`;
+    : made === 1 ? "The only hypothesis." : `All ${made} hypotheses.`;
   return `${all} One column, one travel. Choose one to see its map.`;
 }
 
