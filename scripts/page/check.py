@@ -357,17 +357,22 @@ def test_large(browser, page, answer, what):
 class Serving(http.server.BaseHTTPRequestHandler):
     """Serves a page, and one message of news once it is told to."""
 
-    page, news, told = b"", b"", threading.Event()
+    page, news, told, ended = b"", b"", threading.Event(), threading.Event()
+
+    def say(self, message):
+        self.wfile.write(message + b"\n\n")
+        self.wfile.flush()
 
     def do_GET(self):
         self.send_response(200)
         self.send_header("Content-Type", "text/event-stream" if self.path == "/news" else "text/html; charset=utf-8")
         self.end_headers()
         if self.path == "/news":
+            self.say(b"event: robot\ndata: " + json.dumps({"pose": [2, 1, 0.5], "hits": [[3, 3], [4, 1]]}).encode())
             self.told.wait(20)
-            self.wfile.write(b"data: " + self.news + b"\n\n")
-            self.wfile.flush()
-            time.sleep(1)
+            self.say(b"data: " + self.news)
+            self.ended.wait(20)
+            self.say(b"event: end\ndata: {}")
         else:
             self.wfile.write(self.page)
 
@@ -385,14 +390,17 @@ def test_live(browser, page, other, what):
     threading.Thread(target=server.serve_forever, daemon=True).start()
     browser.open(f"http://127.0.0.1:{server.server_port}/")
     browser.click("[data-place='1'] circle:nth-of-type(2)")
+    check(soon(lambda: len(browser.all(".robot-now .hit")) == 2), f"{what}: the robot as it is now")
     places = len(browser.all("#map-picture .place"))
     browser.js("window.kept = true")
     Serving.told.set()
     check(soon(lambda: len(browser.all("#map-picture .place")) != places), f"{what}: the page is drawn anew")
     check(browser.js("return window.kept"), f"{what}: without being loaded again")
     same(browser.text("#detail h3"), "Place 1", f"{what}: what was chosen is chosen")
+    Serving.ended.set()
+    check(soon(lambda: "nothing more will come" in browser.text("#live")), f"{what}: says when it is over")
     asked = [line for line in browser.complaints() if not line.startswith(f"request: http://127.0.0.1:{server.server_port}/")]
-    same([line for line in asked if "ERR_INCOMPLETE_CHUNKED" not in line], [], f"{what}: console and network")
+    same(asked, [], f"{what}: console and network")
     server.shutdown()
 
 

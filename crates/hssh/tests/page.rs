@@ -229,7 +229,7 @@ static PLAIN: std::sync::LazyLock<PageData> =
 
 /// Any text, and often one with what matters to HTML.
 fn nasty() -> impl Strategy<Value = String> {
-    let pieces = [
+    const PIECES: [&str; 13] = [
         "</script>",
         "<!--",
         "-->",
@@ -244,6 +244,6 @@ fn nasty() -> impl Strategy<Value = String> {
         "${x}",
         "é",
     ];
-    let piece = prop_oneof![any::<String>(), proptest::sample::select(&pieces[..]).prop_map(str::to_owned)];
+    let piece = prop_oneof![any::<String>(), proptest::sample::select(&PIECES[..]).prop_map(str::to_owned)];
     proptest::collection::vec(piece, 0..4).prop_map(|pieces| pieces.concat())
 }

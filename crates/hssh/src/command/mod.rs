@@ -5,6 +5,7 @@ pub(crate) mod explain;
 pub(crate) mod explore;
 mod floor;
 pub(crate) mod graph;
+pub(crate) mod live;
 pub(crate) mod map;
 mod page;
 pub(crate) mod simulate;

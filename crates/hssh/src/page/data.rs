@@ -15,10 +15,14 @@ pub struct PageData {
     pub format: String,
     /// [`PageData::VERSION`].
     pub version: u32,
-    /// Where news of the same exploration come from, as Server-Sent Events: each message is a JSON object with some of these fields, which
-    /// replace those that the page has. Absent in a page that stays as it is.
+    /// Where news come from, as Server-Sent Events: a message is other data for the whole page, or, if it has no `format`, an object with some of
+    /// these fields, which replace those that the page has. Events named `robot` say where the robot is: its `pose`, x, y and θ, and what the
+    /// laser `hits`; an event `end`, that no more will come. Absent in a page that stays as it is.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub live: Option<String>,
+    /// Why there is no map yet, of a page that waits for one.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub waiting: Option<String>,
     /// What was to be explained.
     pub input: AnsweredInput,
     /// What is missing from the input, if that matters.

@@ -45,11 +45,10 @@ pub(super) fn page(data: &PageData) -> String {
         hash(STYLE),
         hash(SCRIPT)
     );
-    let json = serde_json::to_string(data).expect("a page is structs, lists, texts and numbers");
     let parts = [
         ("<!-- policy -->", policy.as_str()),
         ("<!-- style -->", STYLE),
-        ("<!-- data -->", &harmless(&json)),
+        ("<!-- data -->", &harmless(&data.to_json())),
         ("<!-- script -->", SCRIPT),
     ];
     let (mut page, mut rest) = (String::new(), FRAME);

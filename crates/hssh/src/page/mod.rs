@@ -41,23 +41,33 @@ impl PageData {
         shown: u64,
         monitor: &Arc<Monitor>,
     ) -> Result<Self, PageError> {
-        let answer = &mapped.answer;
         let (least, times) = MOST_HYPOTHESES;
-        let most = answer.search.nodes.saturating_mul(times).saturating_add(least);
+        let most = mapped.answer.search.nodes.saturating_mul(times).saturating_add(least);
         let told = mapped.history(input, options, most, monitor)?;
+        let mut page = Self::without_history(input, mapped, shown)?;
+        page.history = history::page_history(&told);
+        if let (None, Some(travels)) = (page.maps.first(), told.beliefs.len().checked_sub(1)) {
+            page.reference = best_of_first(input, mapped, options, travels)?;
+        }
+        Ok(page)
+    }
+
+    /// The same at once, without what was believed on the way.
+    ///
+    /// # Errors
+    /// If a map cannot be drawn.
+    pub fn without_history(input: &Input, mapped: &Mapped, shown: u64) -> Result<Self, PageError> {
+        let answer = &mapped.answer;
         let surveyed = input.as_surveyed();
         let thinned = surveyed.map(|surveyed| Thinned::of(&surveyed.survey));
         let visits = seen::visits(input, mapped, thinned.as_ref());
         let mut maps = answer.maps.iter().map(drawing::page_map).collect::<Result<Vec<_>, _>>()?;
         let grids = thinned.map_or_else(Vec::new, |thinned| grids(input, mapped, &thinned, &mut maps));
-        let reference = match (maps.first(), told.beliefs.len().checked_sub(1)) {
-            (None, Some(travels)) => best_of_first(input, mapped, options, travels)?,
-            _ => None,
-        };
         Ok(PageData {
             format: Self::FORMAT.to_owned(),
             version: Self::VERSION,
             live: None,
+            waiting: None,
             input: answer.input.clone(),
             partial: surveyed.and_then(SurveyedLog::partial),
             doubt: answer.doubt(),
@@ -70,11 +80,30 @@ impl PageData {
             visits,
             shown: maps.iter().find(|map| map.rank == shown).map_or(1, |map| map.rank),
             maps,
-            reference,
+            reference: None,
             grids,
-            history: history::page_history(&told),
+            history: PageHistory::default(),
             tree: mapped.hypotheses().map(|tree| tree::page_tree(tree, answer)),
         })
+    }
+
+    /// The page of something that was not mapped yet, and where its news will come from.
+    #[must_use]
+    pub fn waiting(name: &str, live: &str, reason: &str) -> Self {
+        let one_place = "(stars: {\"\": [\"0+\", \"0-\"]}, start: \"\", travels: [])";
+        let input = Input::from_ron(name, one_place).expect("one place is an exploration");
+        let mapped = map(&input, &MappingOptions::default(), &Arc::default()).expect("one place has a map");
+        let mut page = Self::without_history(&input, &mapped, 1).expect("one place can be drawn");
+        page.live = Some(live.to_owned());
+        page.waiting = Some(reason.to_owned());
+        (page.stars, page.visits, page.maps) = Default::default();
+        page
+    }
+
+    /// The data as JSON.
+    #[must_use]
+    pub fn to_json(&self) -> String {
+        serde_json::to_string(self).expect("a page is structs, lists, texts and numbers")
     }
 
     /// The page. Equal data give equal pages.

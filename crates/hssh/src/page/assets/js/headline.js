@@ -14,7 +14,9 @@ function drawHeadline() {
   const { data } = state;
   const [tone, sign, word] = VERDICTS[data.verdict.kind] ?? ["open", "?", data.verdict.kind];
   const best = data.maps[0];
+  if (data.waiting && !best) return refill(byId("headline"), banner("open", "…", "WAITING", `${capital(data.waiting)}.`));
   refill(byId("headline"),
+    data.waiting && banner("open", "…", "NOT NEW", `There is no newer map: ${data.waiting}.`),
     data.partial && banner("bad", "◐", "PARTIAL", capital(data.partial)),
     data.doubt && banner("bad", "!", "DOUBTFUL", capital(data.doubt)),
     banner(tone, sign, word, data.verdict.sentence),

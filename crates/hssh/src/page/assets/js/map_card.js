@@ -16,6 +16,7 @@ function drawMapCard(view) {
   const hadFocus = picture.contains(document.activeElement);
   drawMap(picture, view, state.data, choose);
   markMap(picture, chosenIn(view, state.chosen));
+  markRobot(picture, state.robot);
   if (hadFocus) (picture.querySelector(".place.chosen") ?? picture.querySelector(".place[tabindex='0']"))?.focus();
   refill(byId("map-legend"), view ? legend(view) : null);
   picture.onkeydown = event => view && onKey(event, view, picture);

@@ -157,6 +157,18 @@ function robotOf(view) {
   return svg("g", { class: "robot", "data-at": `${x} ${-y}`, "aria-hidden": "true" }, mark);
 }
 
+// The robot as it is now, while it drives, and what its laser hits; the mark of the last visit makes way for it.
+function markRobot(picture, now) {
+  picture.querySelector(".robot-now")?.remove();
+  picture.classList.toggle("driving", Boolean(now?.pose));
+  if (!now?.pose || !state.view?.map.measured) return;
+  const [x, y, theta] = now.pose;
+  const scale = Number(picture.querySelector(".robot")?.getAttribute("transform")?.match(/scale\((.*)\)/)?.[1] ?? 0.05);
+  picture.append(svg("g", { class: "robot-now", "aria-hidden": "true" },
+    (now.hits ?? []).map(([hx, hy]) => svg("circle", { cx: hx, cy: -hy, r: 0.06, class: "hit" })),
+    svg("path", { d: "M 12 0 L -7 8 L -3 0 L -7 -8 Z", transform: `translate(${x} ${-y}) rotate(${(-theta * 180) / Math.PI}) scale(${scale})` })));
+}
+
 // The place next to one in a direction: the nearest within a right angle.
 function neighborTowards(view, number, [dx, dy]) {
   const here = view.places[number];

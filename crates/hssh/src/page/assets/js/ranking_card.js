@@ -3,7 +3,7 @@
 function drawRanking() {
   const { data } = state;
   const node = byId("ranking");
-  if (!data.maps.length) return refill(node, element("p", {}, "No map explains everything considered."));
+  if (!data.maps.length) return refill(node, element("p", {}, data.waiting ? "There is no map yet." : "No map explains everything considered."));
   const isPosterior = data.search.objective === "posterior";
   const columns = ["map", ...(isPosterior ? ["probability#", "cost, nats#"] : []), "undetermined#", "paths#", "places#", "genus#", "closed"];
   const focused = document.activeElement?.id;

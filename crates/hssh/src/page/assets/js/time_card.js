@@ -22,7 +22,7 @@ const atEnd = travel => (travel >= state.known.last ? Infinity : travel);
 const travelWords = travel => (travel === 0 ? "at the start" : `after travel ${travel} of ${state.data.input.considered}`);
 
 function modes() {
-  if (!state.known.ranked.size) return null;
+  if (!state.known.ranked.size || !state.data.history.beliefs.length) return null;
   const mode = (then, words) => element("label", {}, element("input", {
     type: "radio", name: "mode", id: then ? "mode-then" : "mode-now", checked: state.then === then, change: () => show({ then }),
   }), ` ${words}`);
@@ -31,7 +31,7 @@ function modes() {
 
 function modeWords() {
   const { history, input } = state.data;
-  if (!state.then) return "Earlier travels show the chosen map as far as it had been travelled: with hindsight, not what was believed then.";
+  if (!state.then || !history.beliefs.length) return "Earlier travels show the chosen map as far as it had been travelled: with hindsight, not what was believed then.";
   const log = input.kind === "laser_log" ? " It was told the visits and stars of the whole log's survey, which closed its loops with hindsight." : "";
   const end = history.end ? ` It ends early: ${history.end}${state.known.ranked.size ? "; later travels show the chosen map as known now" : ""}.` : "";
   return `Earlier travels show what the on-line search, told one travel after the other, took for the best map then.${log}${end}`;

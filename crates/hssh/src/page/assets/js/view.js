@@ -2,8 +2,8 @@
 
 // What the reader has chosen. `rank` of a map; `travel`, how many travels of it, or all; `then`, whether earlier travels show what was
 // believed then; `node`, a hypothesis of the tree instead; `chosen`, a place, way or visit.
-// `view` is what comes of all that.
-const state = { data: null, known: null, rank: 1, travel: Infinity, then: true, node: null, chosen: null, view: null };
+// `view` is what comes of all that; `robot`, of a page that is served, where the robot is now.
+const state = { data: null, known: null, rank: 1, travel: Infinity, then: true, node: null, chosen: null, view: null, robot: null };
 
 // What follows from the data alone, computed once.
 function knowledge(data) {
