@@ -7,7 +7,8 @@ use std::sync::Arc;
 
 use hssh::causal::Exploration;
 use hssh::page::PageData;
-use hssh::pipeline::{Input, Mapped, MappingOptions, Monitor, SearchMethod, map};
+use hssh::pipeline::{Input, Mapped, MappingOptions, Monitor, map};
+use hssh::world::{grid, snake};
 use proptest::prelude::*;
 
 /// What the data stand in.
@@ -146,11 +147,10 @@ fn what_was_believed_is_the_best_map_of_the_travels_so_far() {
 /// A tree that is too large to look at loses what no listed map comes of, and says how much.
 #[test]
 fn a_tree_says_what_it_leaves_out() {
-    let input = input("aces.ron");
-    let mut options = MappingOptions { listed: None, ..MappingOptions::default() };
-    options.search.method = Some(SearchMethod::BreadthFirst);
-    let all = page_data(&input, &options);
-    let planar = page_data(&input, &planar());
+    let world = grid(4, 3, 8.0).unwrap();
+    let exploration = world.explore(&world.route_through(&snake(4, 3)).unwrap()).unwrap();
+    let all = page_data(&Input::exploration("grid", exploration), &MappingOptions::default());
+    let planar = page_data(&input("aces.ron"), &planar());
     for data in [&all, &planar] {
         let tree = data.tree.as_ref().unwrap();
         assert_eq!(tree.made, data.search.nodes);
