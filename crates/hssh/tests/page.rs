@@ -122,6 +122,10 @@ fn a_served_page_may_ask_for_news() {
     let data = PageData { live: Some("/news".to_owned()), ..page_data(&input("figure-2-4.ron"), &planar()) };
     let page = data.to_html();
     assert!(page.contains("connect-src 'self'") && parts(&page)[1].contains(r#""live":"/news""#));
+    let waiting = PageData::waiting("a robot", "/news", "nothing has come yet");
+    let page = waiting.to_html();
+    assert!(page.contains("connect-src 'self'") && waiting.maps.is_empty());
+    assert_eq!(serde_json::from_str::<PageData>(parts(&page)[1]).unwrap(), waiting);
 }
 
 /// After each travel the on-line search believes what a search of these travels alone finds.
