@@ -3,9 +3,11 @@
 pub(crate) mod check;
 pub(crate) mod explain;
 pub(crate) mod explore;
+pub(crate) mod export;
 mod floor;
 pub(crate) mod graph;
 pub(crate) mod map;
+pub(crate) mod shell;
 pub(crate) mod simulate;
 mod stages;
 pub(crate) mod stars;

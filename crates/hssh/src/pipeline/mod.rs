@@ -1,6 +1,7 @@
 //! From an exploration or a robot's log to an answer, step by step: survey, likeness, search, maps, grid.
 
 mod assemble;
+mod driven;
 mod engine;
 mod error;
 mod input;
@@ -28,7 +29,7 @@ use std::thread::available_parallelism;
 
 use hssh_causal::Exploration;
 use hssh_draw::SearchTree;
-use hssh_local::{OccupancyGrid, PerceptionModel, building_map, global_poses, resemblance, visit_frames};
+use hssh_local::{OccupancyGrid, PerceptionModel, building_map, resemblance};
 use hssh_metrics::{Pose, PoseGraph};
 use hssh_topology::{Isomorphism, Position};
 
@@ -303,16 +304,7 @@ impl Mapped {
     pub fn scan_poses(&self, input: &Input, rank: usize) -> Option<Vec<Pose>> {
         let SurveyedLog { survey, .. } = input.surveyed.as_ref()?;
         let PlacedMap { positions, graph } = self.placed(rank)?;
-        if survey.agrees_with(positions) {
-            let first = survey.visits[0].frame;
-            return Some(survey.track.scans.iter().map(|scan| first.between(scan.pose)).collect());
-        }
-        let mut frames = visit_frames(&survey.visits, positions, graph.as_ref()?.poses());
-        // Beyond the travels explained, the track goes on.
-        for travel in &survey.travels[frames.len() - 1..] {
-            frames.push(frames[frames.len() - 1].compose(travel.mean));
-        }
-        Some(global_poses(survey, &frames))
+        driven::scan_poses(survey, positions, graph.as_ref())
     }
 
     /// Where every laser scan of the log was taken and when, those that cannot be used among them: they have the pose
@@ -324,6 +316,15 @@ impl Mapped {
         let tracked = || surveyed.survey.track.scans.iter().map(|scan| scan.pose).collect();
         let poses = self.scan_poses(input, rank).unwrap_or_else(tracked);
         Some(scans::timed(&surveyed.log, &poses))
+    }
+
+    /// Puts the trajectory into each map of the answer: when every scan of the log was taken and where. Nothing without a log.
+    pub fn carry_trajectories(&mut self, input: &Input) {
+        for rank in 1..=self.answer.maps.len() {
+            let trajectory = self.trajectory(input, rank).unwrap_or_default();
+            self.answer.maps[rank - 1].trajectory =
+                trajectory.iter().map(|&(time, pose)| [time, pose.x, pose.y, pose.theta]).collect();
+        }
     }
 
     /// All scans of the log in one pose graph, in the frame of the first place of a map: the tracked steps, and what the laser

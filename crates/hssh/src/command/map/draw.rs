@@ -18,6 +18,7 @@ use crate::output::{
 pub(super) fn is_asked(arguments: &MapArguments) -> bool {
     let MapArguments { svg, dot, tree, g2o, grid, trajectory, debug_dir, .. } = arguments;
     [svg, dot, tree, g2o, grid, trajectory, debug_dir].iter().any(|file| file.is_some())
+        || !arguments.files.export.is_empty()
 }
 
 /// Refuses outputs that cannot be written, before anything is searched.
@@ -26,7 +27,8 @@ pub(super) fn check(arguments: &MapArguments) -> Result<(), Failure> {
     let grid_image = grid_image(grid.as_deref());
     let outputs =
         [svg, dot, tree, g2o, grid, trajectory, certificate, corrected, &grid_image].map(Option::as_ref);
-    check_outputs(&[&arguments.file], outputs)?;
+    let exported = arguments.files.export.iter().map(|(_, file)| Some(file));
+    check_outputs(&[&arguments.file], outputs.into_iter().chain(exported))?;
     check_folder(arguments.debug_dir.as_ref())
 }
 
