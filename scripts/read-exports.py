@@ -327,7 +327,8 @@ def read_back(source, folder, program, schema):
             if kind == "tmap":
                 told = (told[0], [*range(ways)])
             assert (places, ways) == (len(told[0]), len(told[1])), f"{source}: {kind}"
-        assert error < 2e-3, f"{source}: {kind}: {error} m apart"
+        # Millimetres in YAML; OpenStreetMap's programs keep a ten millionth of a degree, which is a centimetre.
+        assert error < (1e-2 if kind == "osmag" else 1e-3), f"{source}: {kind}: {error} m apart"
 
 
 if __name__ == "__main__":

@@ -69,6 +69,7 @@ pub use region::{
 };
 pub use roadmap::{
     Connection, RegionPlace, RoadNode, RoadNodeKind, RoadNodeNumber, Roadmap, RoadmapOptions, Way,
+    least_clearance,
 };
 pub use route::{RouteOptions, driven_line};
 pub use scan::Scan;

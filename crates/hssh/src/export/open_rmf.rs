@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use serde::Serialize;
-use serde_saphyr::{FlowMap, FlowSeq};
+use serde_saphyr::{DoubleQuoted, FlowMap, FlowSeq};
 
 use super::drive_graph::DriveGraph;
 use super::yaml::{rounded, to_yaml};
@@ -11,7 +11,7 @@ use super::yaml::{rounded, to_yaml};
 /// What is in a file.
 #[derive(Serialize)]
 struct NavigationGraph<'a> {
-    building_name: &'a str,
+    building_name: DoubleQuoted<&'a str>,
     levels: BTreeMap<&'static str, Level<'a>>,
     doors: BTreeMap<&'a str, Door>,
     lifts: BTreeMap<&'a str, ()>,
@@ -25,13 +25,13 @@ struct Level<'a> {
 
 #[derive(Serialize)]
 struct Vertex<'a> {
-    name: &'a str,
+    name: DoubleQuoted<&'a str>,
 }
 
 #[derive(Serialize)]
 struct Lane<'a> {
     #[serde(skip_serializing_if = "Option::is_none")]
-    door_name: Option<&'a str>,
+    door_name: Option<DoubleQuoted<&'a str>>,
 }
 
 #[derive(Serialize)]
@@ -54,12 +54,12 @@ pub fn open_rmf_graph(graph: &DriveGraph<'_>) -> String {
         let called = node(number).filter(|node| node.kind != "branch");
         let name = called.map_or("", |node| &node.name);
         let [x, y] = point.position.map(rounded);
-        FlowSeq((x, y, FlowMap(Vertex { name })))
+        FlowSeq((x, y, FlowMap(Vertex { name: DoubleQuoted(name) })))
     };
     let lanes = graph.legs.iter().flat_map(|leg| {
         let [from, to] = leg.ends;
-        let door_name = door(from).or_else(|| door(to));
-        [[from, to], [to, from]].map(|[from, to]| FlowSeq((from, to, FlowMap(Lane { door_name }))))
+        let door = door(from).or_else(|| door(to));
+        [[from, to], [to, from]].map(|[from, to]| FlowSeq((from, to, FlowMap(Lane { door_name: door.map(DoubleQuoted) }))))
     });
     let level =
         Level { vertices: graph.points.iter().enumerate().map(vertex).collect(), lanes: lanes.collect() };
@@ -68,7 +68,7 @@ pub fn open_rmf_graph(graph: &DriveGraph<'_>) -> String {
         Some((node.name.as_str(), Door { endpoints, map: LEVEL }))
     });
     let file = NavigationGraph {
-        building_name: &routes.provenance.source,
+        building_name: DoubleQuoted(&routes.provenance.source),
         levels: BTreeMap::from([(LEVEL, level)]),
         doors: doors.collect(),
         lifts: BTreeMap::new(),

@@ -3,7 +3,7 @@
 use std::f64::consts::FRAC_PI_4;
 
 use serde::Serialize;
-use serde_saphyr::FlowMap;
+use serde_saphyr::{DoubleQuoted, FlowMap};
 
 use super::drive_graph::DriveGraph;
 use super::names::words;
@@ -15,12 +15,15 @@ const NO_DATE: &str = "1970-01-01_00-00-00";
 /// How far around a node a robot is at it, in metres, if nothing is known of the robot.
 const USUAL_RADIUS: f64 = 0.5;
 
+/// What no reader takes for a number, whatever it is.
+type Name<'a> = DoubleQuoted<&'a str>;
+
 #[derive(Serialize)]
 struct TopologicalMap<'a> {
     meta: MapMeta<'a>,
-    metric_map: &'a str,
-    name: &'a str,
-    pointset: &'a str,
+    metric_map: Name<'a>,
+    name: Name<'a>,
+    pointset: Name<'a>,
     transformation: Transformation,
     nodes: Vec<Entry<'a>>,
 }
@@ -63,14 +66,14 @@ struct Entry<'a> {
 
 #[derive(Serialize)]
 struct EntryMeta<'a> {
-    map: &'a str,
-    node: &'a str,
-    pointset: &'a str,
+    map: Name<'a>,
+    node: Name<'a>,
+    pointset: Name<'a>,
 }
 
 #[derive(Serialize)]
 struct Node<'a> {
-    name: &'a str,
+    name: Name<'a>,
     parent_frame: &'static str,
     pose: Pose,
     properties: FlowMap<Tolerances>,
@@ -101,8 +104,8 @@ struct Corner {
 
 #[derive(Serialize)]
 struct Edge<'a> {
-    edge_id: String,
-    node: &'a str,
+    edge_id: DoubleQuoted<String>,
+    node: Name<'a>,
     action: &'static str,
     action_type: &'static str,
     fail_policy: &'static str,
@@ -119,7 +122,7 @@ const UPRIGHT: Quaternion = Quaternion { w: 1.0, x: 0.0, y: 0.0, z: 0.0 };
 #[must_use]
 pub fn topological_map(graph: &DriveGraph<'_>) -> String {
     let provenance = &graph.routes.provenance;
-    let name = provenance.source.as_str();
+    let name = || DoubleQuoted(provenance.source.as_str());
     let names = words(graph.points.iter().map(|point| point.name.as_str()));
     let neighbors = neighbors(graph);
     let radius = graph.routes.radius.unwrap_or(USUAL_RADIUS);
@@ -128,8 +131,8 @@ pub fn topological_map(graph: &DriveGraph<'_>) -> String {
         let [x, y] = point.position.map(rounded);
         let position = FlowMap(Vector { x, y, z: 0.0 });
         let edge = |&other: &usize| Edge {
-            edge_id: format!("{own}_{}", names[other]),
-            node: &names[other],
+            edge_id: DoubleQuoted(format!("{own}_{}", names[other])),
+            node: DoubleQuoted(&names[other]),
             action: "NavigateToPose",
             action_type: "geometry_msgs/PoseStamped",
             fail_policy: "fail",
@@ -139,7 +142,7 @@ pub fn topological_map(graph: &DriveGraph<'_>) -> String {
             restrictions_runtime: "True",
         };
         let node = Node {
-            name: own,
+            name: DoubleQuoted(own),
             parent_frame: "map",
             pose: Pose { position, orientation: FlowMap(UPRIGHT) },
             properties: FlowMap(Tolerances { xy_goal_tolerance: 0.3, yaw_goal_tolerance: 0.1 }),
@@ -149,14 +152,14 @@ pub fn topological_map(graph: &DriveGraph<'_>) -> String {
             localise_by_topic: "",
             edges: neighbors[number].iter().map(edge).collect(),
         };
-        Entry { meta: FlowMap(EntryMeta { map: name, node: own, pointset: name }), node }
+        Entry { meta: FlowMap(EntryMeta { map: name(), node: DoubleQuoted(own), pointset: name() }), node }
     };
     let origin = FlowMap(Vector { x: 0.0, y: 0.0, z: 0.0 });
     to_yaml(&TopologicalMap {
         meta: MapMeta { last_updated: NO_DATE, hssh: provenance },
-        metric_map: name,
-        name,
-        pointset: name,
+        metric_map: name(),
+        name: name(),
+        pointset: name(),
         transformation: Transformation {
             parent: "map",
             child: "topo_map",

@@ -7,7 +7,7 @@ use hssh_local::{Visit, visit_frames};
 use hssh_metrics::{Marginals, Pose, PoseGraph, PoseId};
 use hssh_topology::{MapOlp, Measure, Olp, PlaceId, Position, TopologicalMap};
 
-use super::driven::{Drives, length};
+use super::driven::{Approaches, Drives, length};
 use super::engine::{FoundMap, Telling, measured};
 use super::input::{Input, SurveyedLog};
 use crate::answer::{
@@ -21,6 +21,8 @@ pub(super) struct Assembly<'a> {
     pub(super) found: &'a FoundMap,
     pub(super) telling: &'a Telling,
     pub(super) graph: Option<&'a PoseGraph>,
+    /// Of a log.
+    pub(super) approaches: Option<&'a Approaches>,
 }
 
 impl Assembly<'_> {

@@ -141,6 +141,8 @@ fn told(
     warnings: &mut Vec<AnswerWarning>,
 ) -> (Vec<AnsweredMap>, Vec<PlacedMap>) {
     let (mut maps, mut placed) = (Vec::new(), Vec::new());
+    let approaches = input.surveyed.as_ref().map(|surveyed| driven::Approaches::new(&surveyed.survey));
+    let approaches = approaches.as_ref();
     let mut first: Option<Telling> = None;
     for (index, found) in searched.ranking().iter().enumerate() {
         let rank = index + 1;
@@ -150,7 +152,7 @@ fn told(
             AnswerWarning::record(warnings, WarningKind::NoPoses, spot, || problem.to_string());
             None
         });
-        let mut map = Assembly { input, found, telling: &telling, graph: graph.as_ref() }.map(rank);
+        let mut map = Assembly { input, found, telling: &telling, graph: graph.as_ref(), approaches }.map(rank);
         map.difference = first.as_ref().and_then(|first| searched.difference(first, &telling));
         // Of several maps that are equally good, the first is not the one to be judged.
         if let (1, Some(graph), 1) = (rank, &graph, searched.summary.found.tied) {
