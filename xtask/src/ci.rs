@@ -40,9 +40,17 @@ pub(crate) fn run() -> Result<(), Box<dyn Error>> {
 
 /// Runs every example of the crates that others depend on, as the tests have built it; each checks what it finds.
 fn examples() -> Result<(), Box<dyn Error>> {
-    const CRATES: [&str; 7] =
-        ["hssh-topology", "hssh-causal", "hssh-metrics", "hssh-local", "hssh-io", "hssh-search", "hssh-verify"];
-    let target = std::env::var_os("CARGO_TARGET_DIR").map_or_else(|| root::root().join("target"), PathBuf::from);
+    const CRATES: [&str; 7] = [
+        "hssh-topology",
+        "hssh-causal",
+        "hssh-metrics",
+        "hssh-local",
+        "hssh-io",
+        "hssh-search",
+        "hssh-verify",
+    ];
+    let target =
+        std::env::var_os("CARGO_TARGET_DIR").map_or_else(|| root::root().join("target"), PathBuf::from);
     let shell = Shell::new()?;
     for name in CRATES {
         let mut sources = shell.read_dir(root::root().join("crates").join(name).join("examples"))?;

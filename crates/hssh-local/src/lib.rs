@@ -69,7 +69,6 @@ pub use region::{
 };
 pub use roadmap::{
     Connection, RegionPlace, RoadNode, RoadNodeKind, RoadNodeNumber, Roadmap, RoadmapOptions, Way,
-    least_clearance,
 };
 pub use route::{RouteOptions, driven_line};
 pub use scan::Scan;

@@ -7,9 +7,8 @@ use crate::skeleton::distance;
 /// The clearance is looked at so often in the length of a cell.
 const SAMPLES_PER_CELL: f64 = 2.0;
 
-/// How near obstacles are to a line at its nearest, in metres, from the line to the side of their cells; 0 if the line leaves the grid.
-#[must_use]
-pub fn least_clearance(line: &[[f64; 2]], field: &DistanceField) -> f64 {
+/// How near obstacles are to a line at its nearest, in metres, from the line to the side of their cells.
+pub(super) fn least_clearance(line: &[[f64; 2]], field: &DistanceField) -> f64 {
     let samples = line.windows(2).flat_map(|pair| {
         let [a, b] = [pair[0], pair[1]];
         let count = (distance(a, b) / field.lattice().resolution() * SAMPLES_PER_CELL).ceil().max(1.0);

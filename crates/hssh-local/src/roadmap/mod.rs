@@ -20,5 +20,4 @@ mod tests;
 mod window;
 
 pub use graph::{Connection, RegionPlace, RoadNode, RoadNodeKind, RoadNodeNumber, Roadmap, Way};
-pub use line::least_clearance;
 pub use options::RoadmapOptions;

@@ -61,6 +61,20 @@ fn warn(input: &Path, kind: ExportKind, exported: &Exported) {
     }
 }
 
+/// Refuses kinds that cannot be had, before the work begins: those that are not of `maps`, or else not of grid maps.
+pub(crate) fn refuse_unfit(files: &FilesArguments, maps: bool) -> Result<(), Failure> {
+    let unfit = files.export.iter().find_map(|(kind, file)| {
+        let kind = *kind;
+        let error = match maps {
+            true if !kind.is_of_maps() => ExportError::OfGridMaps { kind },
+            false if !kind.is_of_grids() => ExportError::OfLogs { kind },
+            _ => return None,
+        };
+        Some(Failure::Export { file: file.clone(), error })
+    });
+    unfit.map_or(Ok(()), Err)
+}
+
 /// Writes the files for other programs that were asked for beside an answer.
 pub(crate) fn write_maps(
     file: &Path,

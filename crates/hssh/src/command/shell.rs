@@ -30,7 +30,8 @@ pub(crate) fn print_man(arguments: &ManArguments) -> Result<Status, Failure> {
     check_folder(Some(folder))?;
     let unwritten = |error| Failure::Write { file: folder.clone(), error };
     clap_mangen::generate_to(Arguments::command(), folder).map_err(unwritten)?;
-    let mut pages: Vec<_> = fs::read_dir(folder).map_err(unwritten)?.flatten().map(|page| page.path()).collect();
+    let mut pages: Vec<_> =
+        fs::read_dir(folder).map_err(unwritten)?.flatten().map(|page| page.path()).collect();
     pages.sort();
     let is_ours = |page: &&std::path::PathBuf| {
         page.file_name().is_some_and(|name| name.to_string_lossy().starts_with(NAME))

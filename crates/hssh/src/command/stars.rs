@@ -12,6 +12,7 @@ use hssh_local::{
 };
 use hssh_metrics::Pose;
 
+use super::export::refuse_unfit;
 use super::floor;
 use crate::arguments::StarsArguments;
 use crate::failure::{Failure, Status};
@@ -25,6 +26,7 @@ const MARGIN: f64 = 6.5;
 pub(crate) fn run(options: &StarsArguments) -> Result<Status, Failure> {
     let inputs: Vec<&Path> =
         std::iter::once(&options.map).chain(&options.names).map(PathBuf::as_path).collect();
+    refuse_unfit(&options.files, false)?;
     let exported = options.files.export.iter().map(|(_, file)| Some(file));
     check_outputs(&inputs, std::iter::once(options.svg.as_ref()).chain(exported))?;
     let source = Source::open(&options.map)?;

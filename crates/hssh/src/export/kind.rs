@@ -42,6 +42,18 @@ pub struct Exported {
 }
 
 impl ExportKind {
+    /// Whether it is written of a topological map; the others are of grid maps only.
+    #[must_use]
+    pub fn is_of_maps(self) -> bool {
+        !matches!(self, ExportKind::Regions | ExportKind::Labels)
+    }
+
+    /// Whether it is written of a grid map; the others are of what a robot drove or measured.
+    #[must_use]
+    pub fn is_of_grids(self) -> bool {
+        !matches!(self, ExportKind::Tum | ExportKind::G2o)
+    }
+
     /// Whether robots are sent by it, so that a map that may well be wrong does damage.
     #[must_use]
     pub fn is_driven_by(self) -> bool {

@@ -59,7 +59,8 @@ pub fn open_rmf_graph(graph: &DriveGraph<'_>) -> String {
     let lanes = graph.legs.iter().flat_map(|leg| {
         let [from, to] = leg.ends;
         let door = door(from).or_else(|| door(to));
-        [[from, to], [to, from]].map(|[from, to]| FlowSeq((from, to, FlowMap(Lane { door_name: door.map(DoubleQuoted) }))))
+        [[from, to], [to, from]]
+            .map(|[from, to]| FlowSeq((from, to, FlowMap(Lane { door_name: door.map(DoubleQuoted) }))))
     });
     let level =
         Level { vertices: graph.points.iter().enumerate().map(vertex).collect(), lanes: lanes.collect() };

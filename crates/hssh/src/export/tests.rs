@@ -8,7 +8,9 @@ use serde_json::Value;
 
 use super::route_graph::distance;
 use super::*;
-use crate::answer::{AnsweredEnd, AnsweredLink, AnsweredMap, AnsweredPlace, EndReference, EndState, PlacedPose};
+use crate::answer::{
+    AnsweredEnd, AnsweredLink, AnsweredMap, AnsweredPlace, EndReference, EndState, PlacedPose,
+};
 use crate::pipeline::{Input, MappingOptions, map};
 
 /// An answer with one map, which is proved to be the only one.
@@ -42,8 +44,10 @@ fn name() -> impl Strategy<Value = String> {
     prop_oneof![
         "\\PC{0,12}",
         "[ -~\\x00-\\x1f\\x7f\\x85\\u{2028}\\u{feff}\\u{fffe}]{0,12}",
-        prop::sample::select(vec!["", "null", "yes", "1.0", "a: b", "- a", "]]>", "<!--", "&amp;", "# a", "{}", "'\"\\"])
-            .prop_map(str::to_owned),
+        prop::sample::select(vec![
+            "", "null", "yes", "1.0", "a: b", "- a", "]]>", "<!--", "&amp;", "# a", "{}", "'\"\\"
+        ])
+        .prop_map(str::to_owned),
     ]
 }
 
@@ -80,11 +84,17 @@ fn places_and_links() -> impl Strategy<Value = (Vec<AnsweredPlace>, Vec<Answered
         let centers: Vec<[f64; 2]> =
             places.iter().filter_map(|place| place.pose).map(|pose| [pose.x, pose.y]).collect();
         let link = (end(), end(), prop::option::of(prop::collection::vec(point(), 1..6))).prop_map(
-            move |(from, to, inner)| {
-                let [first, last] = [&from, &to].map(|end| centers[end.place as usize]);
+            move |(from, mut to, inner)| {
                 let is_loop = from.place == to.place;
+                if from == to {
+                    // No gateway leads to itself.
+                    to.end = if from.end == "0+" { "0-" } else { "0+" }.to_owned();
+                }
+                let [first, last] = [&from, &to].map(|end| centers[end.place as usize]);
                 // Only a line tells how a way leads back to where it began.
-                let inner = if is_loop { inner.or(Some(vec![[first[0] + 3.0, first[1]]])) } else { inner };
+                let away = [first[0] + 3.0, first[1]];
+                let inner =
+                    if is_loop { Some([inner.unwrap_or_default(), vec![away]].concat()) } else { inner };
                 let way = inner.map(|inner| [vec![first], inner, vec![last]].concat());
                 AnsweredLink { from, to, way: way.unwrap_or_default() }
             },
@@ -347,7 +357,9 @@ proptest! {
 fn what_is_missing_is_refused() {
     let answer = answer();
     let refused = |kind| export_map(&answer, None, kind, Spacing::default()).unwrap_err();
-    for kind in [ExportKind::Nav2, ExportKind::OpenRmf, ExportKind::Tmap, ExportKind::OsmAg, ExportKind::GeoJson] {
+    for kind in
+        [ExportKind::Nav2, ExportKind::OpenRmf, ExportKind::Tmap, ExportKind::OsmAg, ExportKind::GeoJson]
+    {
         assert_eq!(refused(kind), ExportError::NotPlaced { place: 0 }, "{kind}");
     }
     assert!(matches!(refused(ExportKind::Tum), ExportError::NoTrajectory { .. }));

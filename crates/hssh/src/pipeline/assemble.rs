@@ -174,10 +174,9 @@ impl Assembly<'_> {
 
     /// Gives each link of a log's map the shortest line of the travels along it, which may be of either direction.
     fn add_ways(&self, visits: &[AnsweredVisit], links: &mut [AnsweredLink]) {
-        let (Some(SurveyedLog { survey, .. }), Some(graph)) = (&self.input.surveyed, self.graph) else {
-            return;
-        };
-        let Some(drives) = Drives::new(survey, &self.telling.positions, graph) else { return };
+        let log = self.input.surveyed.as_ref().zip(self.approaches).zip(self.graph);
+        let Some(((SurveyedLog { survey, .. }, approaches), graph)) = log else { return };
+        let Some(drives) = Drives::new(survey, approaches, &self.telling.positions, graph) else { return };
         for (visit, pair) in visits.windows(2).enumerate() {
             let end = |visit: &AnsweredVisit, end: &Option<String>| {
                 Some(EndReference { place: visit.place, end: end.clone()? })

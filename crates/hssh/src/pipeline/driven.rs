@@ -1,8 +1,6 @@
 //! The ways of a log's map as the robot drove them.
 
-use hssh_local::{
-    DistanceField, Occupancy, Survey, driven_line, global_poses, least_clearance, visit_frames,
-};
+use hssh_local::{DistanceField, Occupancy, Survey, driven_line, global_poses, visit_frames};
 use hssh_metrics::{Pose, PoseGraph};
 use hssh_topology::Position;
 
@@ -25,15 +23,14 @@ pub(super) fn scan_poses(
     Some(global_poses(survey, &frames))
 }
 
-/// By which scans the robot came to the middle of each place visited, and by which it left it, so that straight from there to the
-/// middle nothing is in the way: it need not have been there itself.
+/// From which scan of each visit ways lead straight to the middle of the place, so that nothing stands between: the robot need not have
+/// been there itself.
 pub(super) struct Approaches(Vec<Approach>);
 
 #[derive(Clone, Copy)]
 struct Approach {
-    came: usize,
+    scan: usize,
     nearest: usize,
-    left: usize,
 }
 
 impl Approaches {
@@ -46,8 +43,10 @@ impl Approaches {
         Approaches((0..survey.visits.len()).map(|visit| Self::to(survey, visit)).collect())
     }
 
+    /// The scan next to the nearest one from which the way is clear, or else that from which it is clearest.
     fn to(survey: &Survey, index: usize) -> Approach {
         let visit = &survey.visits[index];
+        let nearest = visit.reference;
         let center = [visit.frame.x, visit.frame.y];
         let is_wall = |cell: usize| visit.grid.cells()[cell] != Occupancy::Free;
         let field = DistanceField::new(*visit.grid.lattice(), is_wall);
@@ -56,31 +55,25 @@ impl Approaches {
             [pose.x, pose.y]
         };
         let off = |scan: usize| length(&[center, at(scan)]);
-        let clearance = |scan: usize| least_clearance(&[center, at(scan)], &field);
-        let reach = off(visit.reference) + Self::FARTHER;
-        // The first scan from which the way is clear, or else that from which it is clearest.
-        let best = |scans: &mut dyn Iterator<Item = usize>| {
-            let mut best = (visit.reference, f64::NEG_INFINITY);
-            for scan in scans.take_while(|&scan| off(scan) <= reach) {
-                let clearance = clearance(scan);
-                if clearance > best.1 {
-                    best = (scan, clearance);
-                }
-                if best.1 >= Self::CLEAR {
-                    break;
-                }
+        let is_near = |scan: &usize| off(*scan) <= off(nearest) + Self::FARTHER;
+        let other = |index: Option<usize>| {
+            index.and_then(|index| survey.visits.get(index)).map_or(nearest, |visit| visit.reference)
+        };
+        let before = (other(index.checked_sub(1))..nearest).rev().take_while(is_near);
+        let behind = (nearest..=other(Some(index + 1))).take_while(is_near);
+        let mut scans: Vec<usize> = before.chain(behind).collect();
+        scans.sort_by_key(|scan| scan.abs_diff(nearest));
+        let mut best = (nearest, f64::NEG_INFINITY);
+        for scan in scans {
+            let clearance = least_clearance(center, at(scan), &field);
+            if clearance > best.1 {
+                best = (scan, clearance);
             }
-            best.0
-        };
-        let reference = |index: Option<usize>| {
-            let visit = index.and_then(|index| survey.visits.get(index)).unwrap_or(visit);
-            visit.reference
-        };
-        Approach {
-            came: best(&mut (reference(index.checked_sub(1))..=visit.reference).rev()),
-            nearest: visit.reference,
-            left: best(&mut (visit.reference..=reference(Some(index + 1)))),
+            if best.1 >= Self::CLEAR {
+                break;
+            }
         }
+        Approach { scan: best.0, nearest }
     }
 }
 
@@ -109,13 +102,25 @@ impl<'a> Drives<'a> {
         let [from, to] = [visit, visit + 1].map(|visit| self.approaches.0[visit]);
         let ends = [place(visit), place(visit + 1)];
         // Between places near to one another there is no room for approaches.
-        let scans = if from.left <= to.came { from.left..=to.came } else { from.nearest..=to.nearest };
+        let scans = if from.scan <= to.scan { from.scan..=to.scan } else { from.nearest..=to.nearest };
         let driven = self.scans.get(scans).unwrap_or_default();
         let poses = std::iter::once(&ends[0]).chain(driven).chain([&ends[1]]);
         let points: Vec<[f64; 2]> =
             poses.filter(|pose| pose.is_finite()).map(|pose| [pose.x, pose.y]).collect();
         driven_line(&points)
     }
+}
+
+/// How far a straight line is from walls where it is nearest, in metres; 0 beyond the grid.
+fn least_clearance(from: [f64; 2], to: [f64; 2], field: &DistanceField) -> f64 {
+    let lattice = field.lattice();
+    let steps = (length(&[from, to]) / lattice.resolution()).ceil().max(1.0);
+    let at = |step: u32| {
+        let part = f64::from(step) / steps;
+        [0, 1].map(|axis| from[axis] + part * (to[axis] - from[axis]))
+    };
+    let clearance = |point: [f64; 2]| lattice.cell_at(point).map_or(0.0, |cell| field.clearance(cell));
+    (0..=steps as u32).map(|step| clearance(at(step))).fold(f64::INFINITY, f64::min)
 }
 
 /// How long a line is, in metres.

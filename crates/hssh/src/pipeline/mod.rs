@@ -152,7 +152,8 @@ fn told(
             AnswerWarning::record(warnings, WarningKind::NoPoses, spot, || problem.to_string());
             None
         });
-        let mut map = Assembly { input, found, telling: &telling, graph: graph.as_ref(), approaches }.map(rank);
+        let mut map =
+            Assembly { input, found, telling: &telling, graph: graph.as_ref(), approaches }.map(rank);
         map.difference = first.as_ref().and_then(|first| searched.difference(first, &telling));
         // Of several maps that are equally good, the first is not the one to be judged.
         if let (1, Some(graph), 1) = (rank, &graph, searched.summary.found.tied) {

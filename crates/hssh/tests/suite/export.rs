@@ -167,5 +167,7 @@ fn what_is_no_answer_is_refused_by_name() {
     let said = refusal(&hssh(&["export", &answer, "--to", "graphml", "-o", &answer]));
     assert!(said.contains("is the input"));
     assert!(refusal(&hssh(&["export", &answer, "--to", "nav3"])).contains("nav2"));
-    assert!(refusal(&hssh(&["export", &answer, "--to", "nav2", "--spacing", "0"])).contains("number of metres"));
+    assert!(
+        refusal(&hssh(&["export", &answer, "--to", "nav2", "--spacing", "0"])).contains("number of metres")
+    );
 }
