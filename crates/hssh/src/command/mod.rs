@@ -6,6 +6,7 @@ pub(crate) mod explore;
 pub(crate) mod export;
 mod floor;
 pub(crate) mod graph;
+pub(crate) mod live;
 pub(crate) mod map;
 pub(crate) mod shell;
 pub(crate) mod simulate;

@@ -7,6 +7,7 @@ mod export;
 mod faults;
 mod graph;
 mod kinds;
+mod live;
 mod log;
 mod outputs;
 mod program;
