@@ -146,6 +146,8 @@ impl Outline<'_> {
     fn ring(&self) -> Vec<[f64; 2]> {
         /// No two neighboring corners are farther apart, seen from the center.
         const WIDEST: f64 = TAU / 5.0;
+        /// Nor nearer to one another, for they are rounded once.
+        const NARROWEST: f64 = 0.02;
         let polar = |point: [f64; 2]| {
             let [x, y] = [point[0] - self.center[0], point[1] - self.center[1]];
             (y.atan2(x), x.hypot(y))
@@ -157,7 +159,7 @@ impl Outline<'_> {
             .filter(|corner| corner.1 > 1e-6)
             .collect();
         corners.sort_by(|a, b| a.0.total_cmp(&b.0));
-        corners.dedup_by(|a, b| a.0 - b.0 < 1e-9);
+        corners.dedup_by(|a, b| a.0 - b.0 < NARROWEST);
         let nearest = corners.iter().map(|corner| corner.1).fold(f64::INFINITY, f64::min);
         let nearest = if nearest.is_finite() { nearest } else { 0.5 };
         let first = corners.first().map_or(0.0, |corner| corner.0);
@@ -230,16 +232,35 @@ fn cross(a: [f64; 2], b: [f64; 2], c: [f64; 2]) -> f64 {
     (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])
 }
 
-/// Whether no two sides of a ring cross.
+/// Whether no two sides of a ring cross or come so near to one another that they may once coordinates are rounded.
 fn is_simple(ring: &[[f64; 2]]) -> bool {
-    let side = |index: usize| [ring[index], ring[(index + 1) % ring.len()]];
+    /// Programs for OpenStreetMap keep coordinates to a centimetre.
+    const APART: f64 = 0.02;
+    let side = |index: usize| [ring[index % ring.len()], ring[(index + 1) % ring.len()]];
     let is_crossed = |[a, b]: [[f64; 2]; 2], [c, d]: [[f64; 2]; 2]| {
         cross(a, b, c) * cross(a, b, d) <= 0.0 && cross(c, d, a) * cross(c, d, b) <= 0.0
     };
+    let is_near = |[a, b]: [[f64; 2]; 2], [c, d]: [[f64; 2]; 2]| {
+        [(a, [c, d]), (b, [c, d]), (c, [a, b]), (d, [a, b])]
+            .iter()
+            .any(|&(point, side)| off(point, side) < APART)
+    };
     (0..ring.len()).all(|one| {
-        let others = one + 2..ring.len() - usize::from(one == 0);
-        others.into_iter().all(|other| !is_crossed(side(one), side(other)))
+        let [a, b] = side(one);
+        let [_, c] = side(one + 1);
+        let is_spike = off(c, [a, b]) < APART || off(a, [b, c]) < APART;
+        let mut others = one + 2..ring.len() - usize::from(one == 0);
+        !is_spike && others.all(|other| !is_crossed([a, b], side(other)) && !is_near([a, b], side(other)))
     })
+}
+
+/// How far a point is from a side.
+fn off(point: [f64; 2], [from, to]: [[f64; 2]; 2]) -> f64 {
+    let along = [to[0] - from[0], to[1] - from[1]];
+    let square = along[0] * along[0] + along[1] * along[1];
+    let part = ((point[0] - from[0]) * along[0] + (point[1] - from[1]) * along[1]) / square.max(1e-12);
+    let part = part.clamp(0.0, 1.0);
+    distance(point, [from[0] + part * along[0], from[1] + part * along[1]])
 }
 
 /// The convex hull (Andrew's monotone chain).

@@ -137,6 +137,17 @@ fn is_converted(metadata: &Value) -> bool {
     })
 }
 
+/// Whether any two sides of a closed line cross in their middles.
+fn crosses_itself(ring: &[[f64; 2]]) -> bool {
+    let turn =
+        |a: [f64; 2], b: [f64; 2], c: [f64; 2]| (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
+    let is_parted = |line: &[[f64; 2]], by: &[[f64; 2]]| {
+        turn(by[0], by[1], line[0]) * turn(by[0], by[1], line[1]) < -1e-9
+    };
+    let sides = || ring.windows(2);
+    sides().any(|one| sides().any(|other| is_parted(one, other) && is_parted(other, one)))
+}
+
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(64))]
 
@@ -335,6 +346,7 @@ proptest! {
             prop_assert_eq!(tags["osmAG:type"], "area");
             prop_assert_eq!(tags["osmAG:areatype"], tags["osmAG:areaType"]);
             prop_assert!(ring.len() > 3 && ring.first() == ring.last());
+            prop_assert!(!crosses_itself(ring), "{:?}", ring);
         }
         prop_assert_eq!(passages.len(), 2 * links.len());
         let ends = links.iter().enumerate().flat_map(|(number, link)| [(number, &link.from), (number, &link.to)]);
