@@ -1,6 +1,6 @@
 //! The ways of a log's map as the robot drove them.
 
-use hssh_local::{DistanceField, Occupancy, Survey, driven_line, global_poses, visit_frames};
+use hssh_local::{Occupancy, OccupancyGrid, Survey, driven_line, global_poses, visit_frames};
 use hssh_metrics::{Pose, PoseGraph};
 use hssh_topology::Position;
 
@@ -48,8 +48,6 @@ impl Approaches {
         let visit = &survey.visits[index];
         let nearest = visit.reference;
         let center = [visit.frame.x, visit.frame.y];
-        let is_wall = |cell: usize| visit.grid.cells()[cell] != Occupancy::Free;
-        let field = DistanceField::new(*visit.grid.lattice(), is_wall);
         let at = |scan: usize| {
             let pose = survey.track.scans[scan].pose;
             [pose.x, pose.y]
@@ -65,11 +63,11 @@ impl Approaches {
         scans.sort_by_key(|scan| scan.abs_diff(nearest));
         let mut best = (nearest, f64::NEG_INFINITY);
         for scan in scans {
-            let clearance = least_clearance(center, at(scan), &field);
-            if clearance > best.1 {
-                best = (scan, clearance);
+            let room = room_along(center, at(scan), &visit.grid, Self::CLEAR);
+            if room > best.1 {
+                best = (scan, room);
             }
-            if best.1 >= Self::CLEAR {
+            if room >= Self::CLEAR {
                 break;
             }
         }
@@ -111,16 +109,25 @@ impl<'a> Drives<'a> {
     }
 }
 
-/// How far a straight line is from walls where it is nearest, in metres; 0 beyond the grid.
-fn least_clearance(from: [f64; 2], to: [f64; 2], field: &DistanceField) -> f64 {
-    let lattice = field.lattice();
-    let steps = (length(&[from, to]) / lattice.resolution()).ceil().max(1.0);
+/// How far a straight line is from all that is not free, in metres, where it is nearest; no more than `most`, and 0 beyond the grid.
+fn room_along(from: [f64; 2], to: [f64; 2], grid: &OccupancyGrid, most: f64) -> f64 {
+    let steps = (length(&[from, to]) / grid.lattice().resolution()).ceil().max(1.0);
     let at = |step: u32| {
         let part = f64::from(step) / steps;
         [0, 1].map(|axis| from[axis] + part * (to[axis] - from[axis]))
     };
-    let clearance = |point: [f64; 2]| lattice.cell_at(point).map_or(0.0, |cell| field.clearance(cell));
-    (0..=steps as u32).map(|step| clearance(at(step))).fold(f64::INFINITY, f64::min)
+    (0..=steps as u32).map(|step| room_at(at(step), grid, most)).fold(most, f64::min)
+}
+
+fn room_at(point: [f64; 2], grid: &OccupancyGrid, most: f64) -> f64 {
+    let lattice = grid.lattice();
+    let Some(cell) = lattice.cell_at(point) else { return 0.0 };
+    let reach = (most / lattice.resolution()).ceil() as i32;
+    let around = (-reach..=reach).flat_map(|rows| (-reach..=reach).map(move |columns| (columns, rows)));
+    let near = around.filter_map(|(columns, rows)| lattice.step(cell, columns, rows));
+    let walls = near.filter(|&cell| grid.get(cell) != Occupancy::Free);
+    let half = lattice.resolution() / 2.0;
+    walls.map(|cell| (length(&[point, lattice.center(cell)]) - half).max(0.0)).fold(most, f64::min)
 }
 
 /// How long a line is, in metres.
