@@ -1,6 +1,7 @@
 //! Everything that has to pass before a change is taken; `.ci/run` calls it.
 
 use std::error::Error;
+use std::path::PathBuf;
 use std::time::Instant;
 
 use xshell::{Shell, cmd};
@@ -22,6 +23,7 @@ pub(crate) fn run() -> Result<(), Box<dyn Error>> {
     let tests = cmd!(shell, "cargo test --workspace").env("PROPTEST_RNG_SEED", "2005");
     step("tests", || Ok(tests.run()?))?;
     step("page", || page::run(None))?;
+    step("examples", examples)?;
     step("documentation", || {
         Ok(cmd!(shell, "cargo doc --workspace --no-deps").env("RUSTDOCFLAGS", "-Dwarnings").run()?)
     })?;
@@ -34,6 +36,31 @@ pub(crate) fn run() -> Result<(), Box<dyn Error>> {
         None => println!("== logs: skipped, for HSSH_DATA names no data folder\n"),
     }
     println!("== everything passed");
+    Ok(())
+}
+
+/// Runs every example of the crates that others depend on, as the tests have built it; each checks what it finds.
+fn examples() -> Result<(), Box<dyn Error>> {
+    const CRATES: [&str; 7] = [
+        "hssh-topology",
+        "hssh-causal",
+        "hssh-metrics",
+        "hssh-local",
+        "hssh-io",
+        "hssh-search",
+        "hssh-verify",
+    ];
+    let target =
+        std::env::var_os("CARGO_TARGET_DIR").map_or_else(|| root::root().join("target"), PathBuf::from);
+    let shell = Shell::new()?;
+    for name in CRATES {
+        let mut sources = shell.read_dir(root::root().join("crates").join(name).join("examples"))?;
+        sources.sort();
+        for source in sources {
+            let example = target.join("debug/examples").join(source.file_stem().unwrap_or_default());
+            cmd!(shell, "{example}").quiet().ignore_stdout().run()?;
+        }
+    }
     Ok(())
 }
 

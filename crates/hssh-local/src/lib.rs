@@ -70,7 +70,7 @@ pub use region::{
 pub use roadmap::{
     Connection, RegionPlace, RoadNode, RoadNodeKind, RoadNodeNumber, Roadmap, RoadmapOptions, Way,
 };
-pub use route::RouteOptions;
+pub use route::{RouteOptions, driven_line};
 pub use scan::Scan;
 pub use skeleton::{
     AxisPoint, EdgeEnd, FreeSpace, Skeleton, SkeletonEdge, SkeletonEdgeId, SkeletonNode, SkeletonNodeId,

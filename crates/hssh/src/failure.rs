@@ -86,6 +86,8 @@ pub(crate) enum Failure {
     Tree(#[from] TreeError),
     #[error("{0}{help}", help = help(.0))]
     Pipeline(Box<PipelineError>),
+    #[error("{}: {error}", file.display())]
+    Export { file: PathBuf, error: hssh::export::ExportError },
     #[error("there is no odometry to write as a pose graph")]
     NoOdometry,
     #[error("there is no map number {asked}: only {found} {explain} the exploration", explain = if *found == 1 { "map explains" } else { "maps explain" })]

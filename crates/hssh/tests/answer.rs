@@ -60,6 +60,9 @@ fn full() -> Answer {
     first.costs =
         Some(CostSheet { total: 0.3, items: vec![CostItem { item: "bend".to_owned(), nats: 0.3 }] });
     first.places[0].ends[0].label = Some("door".to_owned());
+    first.places[0].ends[0].gateway = Some([[1.5, 0.7], [1.5, -0.7]]);
+    first.links[0].way = vec![[0.0, 0.0], [1.0 / 3.0, 0.1], [7.0, 0.0]];
+    first.trajectory = vec![[12.5, 0.0, 0.1, -0.2]];
     first.visits[0] =
         AnsweredVisit { entry: Some("0-".to_owned()), robot: Some(pose), ..first.visits[0].clone() };
     first.difference = Some(MapDifference {

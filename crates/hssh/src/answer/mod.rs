@@ -13,6 +13,7 @@ mod picture;
 mod place;
 mod reading;
 mod rebuild;
+mod reservation;
 mod search;
 mod text;
 mod verdict;

@@ -1,5 +1,6 @@
 //! The command line.
 
+mod export;
 mod local;
 mod page;
 mod search;
@@ -11,9 +12,10 @@ use hssh::pipeline::MappingOptions;
 
 use crate::failure::Failure;
 
+pub(crate) use export::{ExportArguments, FilesArguments};
 pub(crate) use local::{
-    ExploreArguments, ExportKind, LaserArguments, PlaceArguments, SimulateArguments, StarsArguments,
-    TopicArguments, TrackArguments,
+    ExploreArguments, LaserArguments, PlaceArguments, SimulateArguments, StarsArguments, TopicArguments,
+    TrackArguments,
 };
 pub(crate) use page::PageArguments;
 pub(crate) use search::SearchArguments;
@@ -40,6 +42,8 @@ pub(crate) enum Command {
     Graph(GraphArguments),
     /// Find the places of a grid map: their gateways, their stars, and what connects them.
     Stars(StarsArguments),
+    /// Write a map as another program reads it: nav2, Open-RMF, topological_navigation, osmAG, GraphML, GeoJSON.
+    Export(ExportArguments),
     /// Correct the odometry of a robot's laser log by matching scan with scan: no places, no loops.
     Track(TrackArguments),
     /// Make an exploration from a robot's laser log: find the places it visited, and their stars.
@@ -50,6 +54,10 @@ pub(crate) enum Command {
     Verify(VerifyArguments),
     /// Print the options that --options reads, each with its default.
     Options(OptionsArguments),
+    /// Print a script that completes commands and options in a shell.
+    Completions(CompletionsArguments),
+    /// Print the manual page, or write one for each command.
+    Man(ManArguments),
 }
 
 #[derive(Debug, Args)]
@@ -113,6 +121,11 @@ pub(crate) struct MapArguments {
     /// each visit, the map, and the building.
     #[arg(long, value_name = "FOLDER")]
     pub(crate) debug_dir: Option<PathBuf>,
+    /// With a laser log: put where every scan was taken into the answer, so that `hssh export --to tum` finds it there.
+    #[arg(long)]
+    pub(crate) with_trajectory: bool,
+    #[command(flatten)]
+    pub(crate) files: FilesArguments,
     #[command(flatten)]
     pub(crate) page: PageArguments,
     #[command(flatten)]
@@ -141,6 +154,19 @@ pub(crate) struct OptionsArguments {
     /// Print one JSON object.
     #[arg(long)]
     pub(crate) json: bool,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct CompletionsArguments {
+    /// The shell, such as `hssh completions bash > ~/.local/share/bash-completion/completions/hssh`.
+    pub(crate) shell: clap_complete::Shell,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct ManArguments {
+    /// Write hssh.1 and a page for each command into this folder.
+    #[arg(short, long, value_name = "FOLDER")]
+    pub(crate) output: Option<PathBuf>,
 }
 
 #[derive(Debug, Args)]

@@ -3,14 +3,14 @@
 use std::path::Path;
 
 use hssh::account::{PlacesAccount, PointName};
-use hssh::export::{nav2_graph, open_rmf_graph, osm_ag, regions_geojson, topological_map};
 use hssh_draw::{GridPicture, RegionPicture, draw_grid};
 use hssh_local::{DoorOptions, OccupancyGrid, PlaceGraph, PlaceOptions, RegionMap, Roadmap, doors};
 
+use super::export::write_places;
 use super::stars::{failure, tell};
-use crate::arguments::{ExportKind, StarsArguments};
+use crate::arguments::StarsArguments;
 use crate::failure::{Failure, Status};
-use crate::output::{write_bytes, write_file};
+use crate::output::write_file;
 use crate::terminal::say;
 
 /// The color of a way.
@@ -40,9 +40,7 @@ pub(super) fn run(
     if let Some(file) = &options.svg {
         write_file(file, &picture(grid, &map, &roadmap, graph.as_ref(), &account))?;
     }
-    for (kind, file) in &options.export {
-        export(*kind, file, &map, &account)?;
-    }
+    write_places(&options.files, &map, &account)?;
     Ok(if account.places.is_empty() { Status::NothingConsistent } else { Status::Found })
 }
 
@@ -99,18 +97,4 @@ fn picture(
             draw_grid(grid, &GridPicture { dots, constrictions: &doors, ways, ..picture })
         }
     }
-}
-
-/// Writes a map for another program.
-fn export(kind: ExportKind, file: &Path, map: &RegionMap, account: &PlacesAccount) -> Result<(), Failure> {
-    let text = match kind {
-        ExportKind::Labels => return write_bytes(file, &map.encode_png()),
-        ExportKind::Nav2 => nav2_graph(account),
-        ExportKind::OpenRmf => open_rmf_graph(account),
-        ExportKind::Tmap => topological_map(account),
-        ExportKind::OsmAg => Ok(osm_ag(account)),
-        ExportKind::Regions => Ok(regions_geojson(account)),
-    };
-    let text = text.map_err(|error| Failure::Usage(format!("cannot write {}: {error}", file.display())))?;
-    write_file(file, &text)
 }

@@ -12,6 +12,7 @@ use hssh_local::{
 };
 use hssh_metrics::Pose;
 
+use super::export::refuse_unfit;
 use super::floor;
 use crate::arguments::StarsArguments;
 use crate::failure::{Failure, Status};
@@ -25,7 +26,8 @@ const MARGIN: f64 = 6.5;
 pub(crate) fn run(options: &StarsArguments) -> Result<Status, Failure> {
     let inputs: Vec<&Path> =
         std::iter::once(&options.map).chain(&options.names).map(PathBuf::as_path).collect();
-    let exported = options.export.iter().map(|(_, file)| Some(file));
+    refuse_unfit(&options.files, false)?;
+    let exported = options.files.export.iter().map(|(_, file)| Some(file));
     check_outputs(&inputs, std::iter::once(options.svg.as_ref()).chain(exported))?;
     let source = Source::open(&options.map)?;
     let is_yaml = options.map.extension().is_some_and(|ending| ending == "yaml" || ending == "yml");
@@ -69,7 +71,7 @@ fn refuse_region_options(options: &StarsArguments, given: &str) -> Result<(), Fa
     let useless = [
         (options.detail, "--detail"),
         (options.names.is_some(), "--names"),
-        (!options.export.is_empty(), "--export"),
+        (!options.files.export.is_empty(), "--export"),
     ];
     match useless.iter().find(|(is_given, _)| *is_given) {
         Some((_, option)) => Err(Failure::Usage(format!(

@@ -1,6 +1,7 @@
 //! From an exploration or a robot's log to an answer, step by step: survey, likeness, search, maps, grid.
 
 mod assemble;
+mod driven;
 mod engine;
 mod error;
 mod input;
@@ -30,7 +31,7 @@ use std::thread::available_parallelism;
 
 use hssh_causal::Exploration;
 use hssh_draw::SearchTree;
-use hssh_local::{OccupancyGrid, PerceptionModel, building_map, global_poses, resemblance, visit_frames};
+use hssh_local::{OccupancyGrid, PerceptionModel, building_map, resemblance};
 use hssh_metrics::{Pose, PoseGraph};
 use hssh_search::Tree;
 use hssh_topology::{Isomorphism, Position};
@@ -135,6 +136,8 @@ fn told(
     warnings: &mut Vec<AnswerWarning>,
 ) -> (Vec<AnsweredMap>, Vec<PlacedMap>) {
     let (mut maps, mut placed) = (Vec::new(), Vec::new());
+    let approaches = input.surveyed.as_ref().map(|surveyed| driven::Approaches::new(&surveyed.survey));
+    let approaches = approaches.as_ref();
     let mut first: Option<Telling> = None;
     for (index, found) in searched.ranking().iter().enumerate() {
         let rank = index + 1;
@@ -144,7 +147,8 @@ fn told(
             AnswerWarning::record(warnings, WarningKind::NoPoses, spot, || problem.to_string());
             None
         });
-        let mut map = Assembly { input, found, telling: &telling, graph: graph.as_ref() }.map(rank);
+        let mut map =
+            Assembly { input, found, telling: &telling, graph: graph.as_ref(), approaches }.map(rank);
         map.difference = first.as_ref().and_then(|first| searched.difference(first, &telling));
         // Of several maps that are equally good, the first is not the one to be judged.
         if let (1, Some(graph), 1) = (rank, &graph, searched.summary.found.tied) {
@@ -351,16 +355,7 @@ impl Mapped {
     pub fn scan_poses(&self, input: &Input, rank: usize) -> Option<Vec<Pose>> {
         let SurveyedLog { survey, .. } = input.surveyed.as_ref()?;
         let PlacedMap { positions, graph } = self.placed(rank)?;
-        if survey.agrees_with(positions) {
-            let first = survey.visits[0].frame;
-            return Some(survey.track.scans.iter().map(|scan| first.between(scan.pose)).collect());
-        }
-        let mut frames = visit_frames(&survey.visits, positions, graph.as_ref()?.poses());
-        // Beyond the travels explained, the track goes on.
-        for travel in &survey.travels[frames.len() - 1..] {
-            frames.push(frames[frames.len() - 1].compose(travel.mean));
-        }
-        Some(global_poses(survey, &frames))
+        driven::scan_poses(survey, positions, graph.as_ref())
     }
 
     /// Where every laser scan of the log was taken and when, those that cannot be used among them: they have the pose
@@ -372,6 +367,15 @@ impl Mapped {
         let tracked = || surveyed.survey.track.scans.iter().map(|scan| scan.pose).collect();
         let poses = self.scan_poses(input, rank).unwrap_or_else(tracked);
         Some(scans::timed(&surveyed.log, &poses))
+    }
+
+    /// Puts the trajectory into each map of the answer: when every scan of the log was taken and where. Nothing without a log.
+    pub fn carry_trajectories(&mut self, input: &Input) {
+        for rank in 1..=self.answer.maps.len() {
+            let trajectory = self.trajectory(input, rank).unwrap_or_default();
+            self.answer.maps[rank - 1].trajectory =
+                trajectory.iter().map(|&(time, pose)| [time, pose.x, pose.y, pose.theta]).collect();
+        }
     }
 
     /// All scans of the log in one pose graph, in the frame of the first place of a map: the tracked steps, and what the laser

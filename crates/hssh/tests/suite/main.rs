@@ -3,6 +3,7 @@
 
 mod causal;
 mod common;
+mod export;
 mod faults;
 mod graph;
 mod kinds;
