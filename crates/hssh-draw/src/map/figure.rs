@@ -3,6 +3,7 @@
 use hssh_topology::{PlaceId, TopologicalMap};
 use nalgebra::vector;
 
+use super::building::draw_building;
 use super::clearance::Obstacles;
 use super::marks::Scene;
 use super::{MapOptions, measure_line};
@@ -34,6 +35,9 @@ pub fn draw_map(map: &TopologicalMap, drawing: &Drawing, options: &MapOptions) -
     let mut canvas = Canvas::default();
     let mut obstacles = Obstacles::of(&scene);
 
+    if let Some(building) = &options.building {
+        draw_building(&mut canvas, &scene, building);
+    }
     canvas.open(r#"class="links""#);
     scene.draw_links(&mut canvas);
     canvas.close();

@@ -1,17 +1,83 @@
 //! The ground that regions are made of: the grid with what is certainly wall told from what was never seen.
 
+use super::options::RegionOptions;
+use crate::distance::DistanceField;
 use crate::grid::{Cell, Lattice, Occupancy, OccupancyGrid};
+use crate::skeleton::{FreeSpace, SkeletonOptions, UnknownSpace};
 
-/// The grid of which unknown space that is too thin to be anything but the edge of a wall is wall: drawings have gray
-/// rims, and robots leave specks. The outermost cells are wall, too, for nothing is known beyond.
-pub(super) fn settled(grid: &OccupancyGrid, thinnest: f64) -> OccupancyGrid {
+/// What regions are made of.
+pub(super) struct Ground {
+    /// With rims settled.
+    grid: OccupancyGrid,
+    /// Without furniture.
+    free: FreeSpace,
+    unknown: UnknownSpace,
+}
+
+impl Ground {
+    pub(super) fn new(grid: &OccupancyGrid, options: &RegionOptions) -> Self {
+        let mut grid = without_rims(grid, options.rim);
+        let lattice = *grid.lattice();
+        if options.unknown != UnknownSpace::Unexplored {
+            // Nothing is known beyond the map.
+            for cell in lattice.cells().filter(|&cell| is_outermost(&lattice, cell)) {
+                grid.set(cell, Occupancy::Occupied);
+            }
+        }
+        let clearing = SkeletonOptions {
+            unknown: options.unknown,
+            clutter: options.furniture,
+            narrowest_passage: options.narrowest,
+            ..SkeletonOptions::default()
+        };
+        let free = FreeSpace::new(&grid, &clearing);
+        Ground { grid, free, unknown: options.unknown }
+    }
+
+    pub(super) fn free(&self) -> &FreeSpace {
+        &self.free
+    }
+
+    /// How far each cell is from what no robot can go through.
+    pub(super) fn field(&self) -> &DistanceField {
+        self.free.field()
+    }
+
+    /// Whether no robot can be in the cell with an index.
+    pub(super) fn is_obstacle(&self, index: usize) -> bool {
+        self.field().squared_at(index) == 0
+    }
+
+    /// Whether the cell with an index is wall, or anything else that stands there for certain.
+    pub(super) fn is_wall(&self, index: usize) -> bool {
+        self.is_obstacle(index)
+            && (self.unknown != UnknownSpace::Unexplored || self.grid.cells()[index] == Occupancy::Occupied)
+    }
+
+    /// Whether there is wall at a point in metres; there is beyond the map, unless it is unexplored.
+    pub(super) fn is_wall_at(&self, point: [f64; 2]) -> bool {
+        let lattice = self.grid.lattice();
+        let at = lattice.cell_at(point).map(|cell| self.is_wall(lattice.index(cell)));
+        at.unwrap_or(self.unknown != UnknownSpace::Unexplored)
+    }
+
+    /// Whether a robot cannot be at a point in metres.
+    pub(super) fn is_obstacle_at(&self, point: [f64; 2]) -> bool {
+        let field = self.field();
+        self.grid.lattice().cell_at(point).is_none_or(|cell| field.squared_cells(cell) == Some(0))
+    }
+}
+
+/// The grid of which unknown space that is thinner than so many metres, between what is known, is wall: drawings have gray
+/// rims, which would else be frontiers, and robots leave specks.
+#[must_use]
+pub fn without_rims(grid: &OccupancyGrid, thinnest: f64) -> OccupancyGrid {
     let lattice = *grid.lattice();
     let mut settled = grid.clone();
     let reach = (thinnest / 2.0 / lattice.resolution()).round().max(1.0) as u32;
     let is_wide = opened(&lattice, reach, |cell| grid.get(cell) == Occupancy::Unknown);
     for cell in lattice.cells() {
-        let is_rim = grid.get(cell) == Occupancy::Unknown && !is_wide[lattice.index(cell)];
-        if is_rim || is_outermost(&lattice, cell) {
+        if grid.get(cell) == Occupancy::Unknown && !is_wide[lattice.index(cell)] {
             settled.set(cell, Occupancy::Occupied);
         }
     }
