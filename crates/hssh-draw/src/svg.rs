@@ -106,8 +106,7 @@ impl Canvas {
             self.make_room(corner, 1.0);
         }
         let corner = |point: &Point| format!("{} {}", number(point.x), number(point.y));
-        let ring =
-            |ring: &Vec<Point>| format!("M{}Z", ring.iter().map(corner).collect::<Vec<_>>().join("L"));
+        let ring = |ring: &Vec<Point>| format!("M{}Z", ring.iter().map(corner).collect::<Vec<_>>().join("L"));
         let path: String = rings.iter().map(ring).collect();
         self.line_of_text(&format!(r#"<path d="{path}" {attributes}/>"#));
     }

@@ -8,10 +8,10 @@ use std::sync::Arc;
 
 use hssh::answer::{
     Answer, AnswerError, AnswerWarning, AnsweredBuilding, AnsweredEvidence, AnsweredMap, AnsweredPassage,
-    AnsweredRegion, AnsweredStay, AnsweredVisit, Assumption,
-    CorrectionKind, CostItem, CostSheet, EndReference, EndState, Explanation, Finding, FoundCounts,
-    InputKind, MapDifference, PartingVisit, PlacedPose, ReadingAccount, ReadingCorrection, SearchObjective,
-    SearchOrder, Spot, StopReason, TestTravels, Verdict, VerdictKind, VisitRecord, WarningKind, Worth,
+    AnsweredRegion, AnsweredStay, AnsweredVisit, Assumption, CorrectionKind, CostItem, CostSheet,
+    EndReference, EndState, Explanation, Finding, FoundCounts, InputKind, MapDifference, PartingVisit,
+    PlacedPose, ReadingAccount, ReadingCorrection, SearchObjective, SearchOrder, Spot, StopReason,
+    TestTravels, Verdict, VerdictKind, VisitRecord, WarningKind, Worth,
 };
 use hssh::causal::Exploration;
 use hssh::pipeline::{Input, Mapped, MappingOptions, Monitor, SearchMethod, map};

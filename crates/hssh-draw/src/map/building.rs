@@ -9,6 +9,23 @@ use crate::svg::{Anchor, Canvas, Point, number};
 /// The size of what regions are called, in pixels.
 const NAME_SIZE: f64 = 9.0;
 
+/// The longer side of a building in a picture, at least, in pixels.
+const SIDE: f64 = 1000.0;
+
+impl BuildingPicture {
+    /// By how much a picture must be stretched, of which a pixel is so many metres.
+    pub(super) fn stretch(&self, pixel: f64) -> f64 {
+        let corners = || self.regions.iter().flat_map(|region| &region.rings).flatten();
+        let side = [0, 1].map(|axis| {
+            let low = corners().map(|corner| corner[axis]).fold(f64::INFINITY, f64::min);
+            let high = corners().map(|corner| corner[axis]).fold(f64::NEG_INFINITY, f64::max);
+            (high - low) / pixel
+        });
+        let longer = side[0].max(side[1]);
+        if longer > 0.0 { (SIDE / longer).max(1.0) } else { 1.0 }
+    }
+}
+
 /// Draws regions in their colors with what they are called, and doors across.
 pub(super) fn draw_building(canvas: &mut Canvas, scene: &Scene, building: &BuildingPicture) {
     let at = |[x, y]: [f64; 2]| scene.on_canvas(vector![x, y]);

@@ -28,12 +28,8 @@ impl Building {
     pub(super) fn of(name: &'static str, answer: &Answer) -> Option<Self> {
         let building = answer.building.as_ref()?;
         let passages = |kind: &str| building.passages.iter().filter(|passage| passage.kind == kind).count();
-        let entered: Vec<f64> = building
-            .regions
-            .iter()
-            .filter(|region| region.stays > 0)
-            .map(|region| region.explored)
-            .collect();
+        let entered: Vec<f64> =
+            building.regions.iter().filter(|region| region.stays > 0).map(|region| region.explored).collect();
         let places = || answer.maps.iter().take(1).flat_map(|map| &map.places);
         Some(Building {
             name,
@@ -57,12 +53,18 @@ pub(super) fn table(all: &[Building]) -> String {
     let mut header = vec!["log".to_owned()];
     header.extend(KINDS.map(|kind| format!("{kind}s")));
     header.extend(
-        ["doors", "openings", "entered", "stays", "visits in one", "places in one", "rim seen"].map(str::to_owned),
+        ["doors", "openings", "entered", "stays", "visits in one", "places in one", "rim seen"]
+            .map(str::to_owned),
     );
     let of = |[part, all]: [usize; 2]| format!("{part} of {all}");
     let row = |one: &Building| {
         let mut row = vec![one.name.to_owned()];
-        row.extend(one.kinds.iter().chain([&one.doors, &one.openings, &one.entered, &one.stays]).map(usize::to_string));
+        row.extend(
+            one.kinds
+                .iter()
+                .chain([&one.doors, &one.openings, &one.entered, &one.stays])
+                .map(usize::to_string),
+        );
         row.extend([of(one.visits), of(one.places), format!("{:.2}", one.explored)]);
         row
     };

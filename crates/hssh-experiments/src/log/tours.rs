@@ -33,9 +33,17 @@ struct Toured {
 /// Leads a robot through every room of each plan, maps its log, and compares in which regions it was with the rooms.
 pub(super) fn report(folder: &Path) -> Result<String, Box<dyn Error>> {
     let mut rows = vec![
-        ["plan", "m", "rooms entered", "regions entered", "scans in the right one", "visits in a region", "s"]
-            .map(str::to_owned)
-            .to_vec(),
+        [
+            "plan",
+            "m",
+            "rooms entered",
+            "regions entered",
+            "scans in the right one",
+            "visits in a region",
+            "s",
+        ]
+        .map(str::to_owned)
+        .to_vec(),
     ];
     for name in plan_names(folder)? {
         let grid = read_floor_plan(&folder.join(format!("{name}.png")), RESOLUTION)?;
@@ -51,7 +59,10 @@ pub(super) fn report(folder: &Path) -> Result<String, Box<dyn Error>> {
             format!("{seconds:.1}"),
         ]);
     }
-    Ok(format!("tours of floor plans: where the robot was, by the building that its log shows\n{}", aligned(&rows)))
+    Ok(format!(
+        "tours of floor plans: where the robot was, by the building that its log shows\n{}",
+        aligned(&rows)
+    ))
 }
 
 fn toured(name: String, grid: &OccupancyGrid, rooms: &Rooms) -> Result<Toured, Box<dyn Error>> {
@@ -80,7 +91,8 @@ fn toured(name: String, grid: &OccupancyGrid, rooms: &Rooms) -> Result<Toured, B
             *in_region.entry(region).or_insert(0) += 1;
         }
     }
-    let entered = |counts: &BTreeMap<u32, usize>| counts.values().filter(|&&scans| scans >= LEAST_SCANS).count();
+    let entered =
+        |counts: &BTreeMap<u32, usize>| counts.values().filter(|&&scans| scans >= LEAST_SCANS).count();
     let metres = line.windows(2).map(|pair| (pair[1][0] - pair[0][0]).hypot(pair[1][1] - pair[0][1])).sum();
     Ok(Toured {
         name,

@@ -31,14 +31,15 @@ pub fn stays(map: &RegionMap, poses: &[Pose]) -> Vec<Stay> {
     }
     let is_look = |stay: &Stay| {
         let (first, last) = stay.scans;
-        let away =
-            |pose: &Pose| (pose.translation() - poses[first].translation()).norm();
+        let away = |pose: &Pose| (pose.translation() - poses[first].translation()).norm();
         poses[first..=last].iter().all(|pose| away(pose) < WITHIN)
     };
     let mut kept: Vec<Stay> = Vec::new();
     for (at, stay) in stays.iter().enumerate() {
         let is_passed_over = is_look(stay)
-            && kept.last().is_some_and(|before| stays.get(at + 1).is_some_and(|after| after.region == before.region));
+            && kept
+                .last()
+                .is_some_and(|before| stays.get(at + 1).is_some_and(|after| after.region == before.region));
         match kept.last_mut() {
             Some(before) if is_passed_over || before.region == stay.region => before.scans.1 = stay.scans.1,
             _ => kept.push(*stay),
@@ -81,7 +82,8 @@ mod tests {
         assert_eq!(told(&[2.0, 3.0, 4.0, 4.7, 6.0, 4.0, 2.0]), [(0, 2), (3, 4), (5, 6)], "a visit");
         assert_eq!(told(&[4.7, 4.0, 2.0]), [(0, 0), (1, 2)], "it began there");
         let [left, right] = [2.0, 7.0].map(|x| map.region_at([x, 2.5]).unwrap());
-        let regions: Vec<RegionNumber> = stays(&map, &way(&[2.0, 7.0])).iter().map(|stay| stay.region).collect();
+        let regions: Vec<RegionNumber> =
+            stays(&map, &way(&[2.0, 7.0])).iter().map(|stay| stay.region).collect();
         assert_eq!(regions, [left, right]);
     }
 }

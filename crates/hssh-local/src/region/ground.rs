@@ -5,6 +5,9 @@ use crate::distance::DistanceField;
 use crate::grid::{Cell, Lattice, Occupancy, OccupancyGrid};
 use crate::skeleton::{FreeSpace, SkeletonOptions, UnknownSpace};
 
+/// In a map that is not complete, thin unknown space is the face of a wall if there is wall no farther than this, in metres.
+const FACE: f64 = 0.1;
+
 /// What regions are made of.
 pub(super) struct Ground {
     /// With rims settled.
@@ -16,14 +19,7 @@ pub(super) struct Ground {
 
 impl Ground {
     pub(super) fn new(grid: &OccupancyGrid, options: &RegionOptions) -> Self {
-        let mut grid = without_rims(grid, options.rim);
-        let lattice = *grid.lattice();
-        if options.unknown != UnknownSpace::Unexplored {
-            // Nothing is known beyond the map.
-            for cell in lattice.cells().filter(|&cell| is_outermost(&lattice, cell)) {
-                grid.set(cell, Occupancy::Occupied);
-            }
-        }
+        let grid = settled(grid, options);
         let clearing = SkeletonOptions {
             unknown: options.unknown,
             clutter: options.furniture,
@@ -68,20 +64,47 @@ impl Ground {
     }
 }
 
+/// The grid with what is certainly wall.
+fn settled(grid: &OccupancyGrid, options: &RegionOptions) -> OccupancyGrid {
+    let lattice = *grid.lattice();
+    let is_rim = rims(grid, options.rim);
+    if options.unknown == UnknownSpace::Unexplored {
+        // What no scan met between two rays is thin as well, and no wall.
+        let walls = DistanceField::new(lattice, |index| grid.cells()[index] == Occupancy::Occupied);
+        with_walls(grid, |index| is_rim[index] && walls.clearance_at(index) <= FACE)
+    } else {
+        // Nothing is known beyond the map.
+        with_walls(grid, |index| is_rim[index] || is_outermost(&lattice, lattice.cell(index)))
+    }
+}
+
 /// The grid of which unknown space that is thinner than so many metres, between what is known, is wall: drawings have gray
 /// rims, which would else be frontiers, and robots leave specks.
 #[must_use]
 pub fn without_rims(grid: &OccupancyGrid, thinnest: f64) -> OccupancyGrid {
+    let is_rim = rims(grid, thinnest);
+    with_walls(grid, |index| is_rim[index])
+}
+
+/// The grid with walls in further cells, by their indices.
+fn with_walls(grid: &OccupancyGrid, is_wall: impl Fn(usize) -> bool) -> OccupancyGrid {
     let lattice = *grid.lattice();
-    let mut settled = grid.clone();
-    let reach = (thinnest / 2.0 / lattice.resolution()).round().max(1.0) as u32;
-    let is_wide = opened(&lattice, reach, |cell| grid.get(cell) == Occupancy::Unknown);
-    for cell in lattice.cells() {
-        if grid.get(cell) == Occupancy::Unknown && !is_wide[lattice.index(cell)] {
-            settled.set(cell, Occupancy::Occupied);
-        }
+    let mut walled = grid.clone();
+    for cell in lattice.cells().filter(|&cell| is_wall(lattice.index(cell))) {
+        walled.set(cell, Occupancy::Occupied);
     }
-    settled
+    walled
+}
+
+/// For each cell whether it is unknown, and in no square of that many metres of which nothing is known.
+fn rims(grid: &OccupancyGrid, thinnest: f64) -> Vec<bool> {
+    let lattice = grid.lattice();
+    let reach = (thinnest / 2.0 / lattice.resolution()).round().max(1.0) as u32;
+    let mut is_rim = opened(lattice, reach, |cell| grid.get(cell) == Occupancy::Unknown);
+    for (is_rim, &known) in is_rim.iter_mut().zip(grid.cells()) {
+        *is_rim = known == Occupancy::Unknown && !*is_rim;
+    }
+    is_rim
 }
 
 fn is_outermost(lattice: &Lattice, Cell { column, row }: Cell) -> bool {

@@ -150,6 +150,13 @@ impl Default for DoorwayOptions {
 
 impl Default for KindOptions {
     fn default() -> Self {
-        KindOptions { doorway: 2.0, elongation: 4.0, widest_corridor: 4.0, hall: 80.0, narrowest_closed: 1.2, explored: 0.6 }
+        KindOptions {
+            doorway: 2.0,
+            elongation: 4.0,
+            widest_corridor: 4.0,
+            hall: 80.0,
+            narrowest_closed: 1.2,
+            explored: 0.6,
+        }
     }
 }

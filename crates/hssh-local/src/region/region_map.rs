@@ -2,13 +2,13 @@
 
 use super::border::{self, Border, Gap, Pair};
 use super::flood::{self, Joining, NO_PIECE, Pieces};
+use super::ground::Ground;
 use super::kind::{Region, RegionNumber};
 use super::merge::{self, Extent, Merged};
 use super::options::RegionOptions;
 use super::outline::{self, Outline};
 use super::passage::{self, Passage};
 use super::{door, rim};
-use super::ground::Ground;
 use crate::distance::DistanceField;
 use crate::grid::{Cell, Lattice, OccupancyGrid};
 use crate::place::PlaceGraphError;
@@ -131,8 +131,7 @@ fn kept(
         (is_kept[a as usize], is_kept[b as usize]) = (true, true);
     }
     for (&cell, &region) in pieces.widest.iter().zip(region_of) {
-        is_kept[region as usize] |=
-            2.0 * field.clearance_at(cell as usize) >= options.kind.narrowest_closed;
+        is_kept[region as usize] |= 2.0 * field.clearance_at(cell as usize) >= options.kind.narrowest_closed;
     }
     is_kept
 }

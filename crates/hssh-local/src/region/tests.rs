@@ -116,7 +116,11 @@ fn a_ray_belongs_to_the_room_it_came_from() {
 #[test]
 fn unexplored_space_parts_nothing() {
     let pinched = |what| {
-        floor([13.0, 6.0], &[[0.5, 0.5, 12.5, 5.5]], &[([6.0, 0.5, 6.6, 2.4], what), ([6.0, 3.3, 6.6, 5.5], what)])
+        floor(
+            [13.0, 6.0],
+            &[[0.5, 0.5, 12.5, 5.5]],
+            &[([6.0, 0.5, 6.6, 2.4], what), ([6.0, 3.3, 6.6, 5.5], what)],
+        )
     };
     let count = |what, unknown| {
         let options = RegionOptions { unknown, ..RegionOptions::default() };
@@ -131,8 +135,7 @@ fn unexplored_space_parts_nothing() {
 /// A room of 4 m square of which the walls on some sides were never seen.
 #[test]
 fn the_part_of_the_rim_that_was_seen_is_told() {
-    let sides =
-        [[0.0, 0.0, 5.0, 0.5], [4.5, 0.0, 5.0, 5.0], [0.0, 4.5, 5.0, 5.0], [0.0, 0.0, 0.5, 5.0]];
+    let sides = [[0.0, 0.0, 5.0, 0.5], [4.5, 0.0, 5.0, 5.0], [0.0, 4.5, 5.0, 5.0], [0.0, 0.0, 0.5, 5.0]];
     for unseen in 0..=3_u32 {
         let unknown: Vec<([f64; 4], Occupancy)> =
             sides[..unseen as usize].iter().map(|&side| (side, Occupancy::Unknown)).collect();

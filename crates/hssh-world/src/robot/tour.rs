@@ -136,7 +136,8 @@ mod tests {
             assert!((told.translation() - moment.pose.translation()).norm() < 1e-6, "{moment:?}");
         }
         assert_eq!(tour, Tour::along(&line, &plan, &options.with_noise(0.0), 1));
-        let length: f64 = line.windows(2).map(|pair| (pair[1][0] - pair[0][0]).hypot(pair[1][1] - pair[0][1])).sum();
+        let length: f64 =
+            line.windows(2).map(|pair| (pair[1][0] - pair[0][0]).hypot(pair[1][1] - pair[0][1])).sum();
         assert!(tour.moments.len() as f64 >= length / options.scan_distance);
     }
 }

@@ -69,7 +69,8 @@ impl MapPicture {
             RegionPicture {
                 rings: region.outline.iter().chain(&region.holes).cloned().collect(),
                 color: format!("#{red:02x}{green:02x}{blue:02x}"),
-                name: region.title(number as usize),
+                // Of what was only seen, there may be much and small.
+                name: if region.stays > 0 { region.title(number as usize) } else { String::new() },
             }
         };
         let doors = building.passages.iter().filter(|passage| passage.kind == "door");

@@ -5,7 +5,9 @@ use std::path::Path;
 use hssh::account::{PlacesAccount, PointName};
 use hssh::export::{nav2_graph, open_rmf_graph, osm_ag, regions_geojson, topological_map};
 use hssh_draw::{GridPicture, RegionPicture, draw_grid};
-use hssh_local::{DoorOptions, OccupancyGrid, PlaceGraph, PlaceOptions, RegionMap, Roadmap, doors, without_rims};
+use hssh_local::{
+    DoorOptions, OccupancyGrid, PlaceGraph, PlaceOptions, RegionMap, Roadmap, doors, without_rims,
+};
 
 use super::stars::{failure, tell};
 use crate::arguments::{ExportKind, StarsArguments};
@@ -27,7 +29,9 @@ pub(super) fn run(
     // For the axis, too, a gray rim is the edge of a wall and no frontier.
     let ground = options.detail.then(|| without_rims(grid, options.region_options().rim));
     let graph = match &ground {
-        Some(ground) => Some(PlaceGraph::new(ground, parameters).map_err(|error| failure(&options.map, error))?),
+        Some(ground) => {
+            Some(PlaceGraph::new(ground, parameters).map_err(|error| failure(&options.map, error))?)
+        }
         None => None,
     };
     let name = options.map.display().to_string();

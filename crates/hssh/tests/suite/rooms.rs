@@ -98,7 +98,8 @@ fn visits_and_places_name_their_regions(answer: &Answer) {
     let building = answer.building.as_ref().unwrap();
     for visit in &answer.visits {
         let (region, scan) = (visit.region.unwrap(), visit.scan.unwrap());
-        let stay = building.stays.iter().find(|stay| (stay.scans[0]..=stay.scans[1]).contains(&scan)).unwrap();
+        let stay =
+            building.stays.iter().find(|stay| (stay.scans[0]..=stay.scans[1]).contains(&scan)).unwrap();
         assert_eq!(region, stay.region, "{visit:?}");
         assert_eq!(answer.maps[0].places[visit.place.unwrap() as usize].region, Some(region));
     }
