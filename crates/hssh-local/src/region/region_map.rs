@@ -58,7 +58,7 @@ impl RegionMap {
         for label in labels.iter_mut().filter(|label| **label != NO_PIECE) {
             *label = numbers[region_of[*label as usize] as usize];
         }
-        let explored = rim::explored(&labels, count as usize, &ground);
+        let explored = rim::explored(&labels, count as usize, &ground, options.narrowest);
         let extents = numbers.iter().zip(&extents).filter(|(number, _)| **number != NO_PIECE);
         let regions: Vec<Region> = extents
             .zip(explored)
