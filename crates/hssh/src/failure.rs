@@ -101,6 +101,14 @@ pub(crate) enum Failure {
     ReadLog { file: PathBuf, error: Box<hssh_local::LogError> },
     #[error("cannot use {}: {error}", file.display())]
     ReadTable { file: PathBuf, error: Box<hssh_io::TableError> },
+    #[error(
+        "cannot serve the page on port {port} of this machine: {error}\nhelp: another program may use it: give another --port, or 0 for any that is free"
+    )]
+    Port { port: u16, error: std::io::Error },
+    #[error("no scan came that can be used")]
+    NothingCame,
+    #[error("cannot use {}: {error}", file.display())]
+    ReadJsonLines { file: PathBuf, error: Box<hssh_io::JsonLinesError> },
     #[cfg(feature = "bags")]
     #[error("cannot use {}: {error}\nhelp: `hssh check` says what is in a bag", file.display())]
     ReadBag { file: PathBuf, error: Box<hssh_io::RecordingError> },

@@ -4,7 +4,7 @@ use std::path::Path;
 
 use hssh::kind::FileKind;
 use hssh::pipeline::LaserChoice;
-use hssh_io::{TableOptions, read_table};
+use hssh_io::{KnownLaser, read_json_lines, read_table};
 use hssh_local::LaserLog;
 
 use super::Source;
@@ -27,9 +27,12 @@ pub(super) fn read_log(
             source.kind()
         ))),
         FileKind::Table => {
-            let options = TableOptions { view: mount.view, laser: mount.pose };
-            read_table(source.into_content(), &options)
+            read_table(source.into_content(), &KnownLaser { view: mount.view, pose: mount.pose })
                 .map_err(|error| Failure::ReadTable { file: file.to_owned(), error: Box::new(error) })
+        }
+        FileKind::JsonLines => {
+            read_json_lines(source.into_content(), &KnownLaser { view: mount.view, pose: mount.pose })
+                .map_err(|error| Failure::ReadJsonLines { file: file.to_owned(), error: Box::new(error) })
         }
         _ => LaserLog::read_with(source.into_content(), &mount)
             .map_err(|error| Failure::ReadLog { file: file.to_owned(), error: Box::new(error) }),
@@ -37,7 +40,7 @@ pub(super) fn read_log(
 }
 
 #[cfg(feature = "bags")]
-pub(crate) use bag::read_account;
+pub(crate) use bag::{read_account, recording_options};
 
 #[cfg(feature = "bags")]
 mod bag {
@@ -62,7 +65,7 @@ mod bag {
             let text = "--fov (or the option laser.view) is for logs that do not say how wide the laser looks: a bag does";
             return Err(Failure::Usage(text.to_owned()));
         }
-        let options = options(laser, topics);
+        let options = recording_options(laser, topics);
         let read = in_file(file, source, |path| read_bag(path, &options))?;
         for used in read.used {
             say(&format!("{}: {used}", file.display()));
@@ -76,7 +79,7 @@ mod bag {
         source: Source,
         topics: &TopicArguments,
     ) -> Result<BagAccount, Failure> {
-        let options = options(&LaserChoice::default(), topics);
+        let options = recording_options(&LaserChoice::default(), topics);
         in_file(file, source, |path| bag_account(path, &options))
     }
 
@@ -94,7 +97,8 @@ mod bag {
         with_file(source.into_content(), read).map_err(unpacked)?.map_err(failed)
     }
 
-    fn options(laser: &LaserChoice, topics: &TopicArguments) -> RecordingOptions {
+    /// What is known and asked for of a bag.
+    pub(crate) fn recording_options(laser: &LaserChoice, topics: &TopicArguments) -> RecordingOptions {
         let TopicArguments { scan, odom, base_frame } = topics.clone();
         RecordingOptions { scan, odometry: odom, base_frame, laser: laser.mount().pose }
     }

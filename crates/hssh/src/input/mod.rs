@@ -18,9 +18,9 @@ use crate::failure::Failure;
 use crate::progress::{is_interrupted, keep_on_signals};
 use crate::terminal::say;
 
-#[cfg(feature = "bags")]
-pub(crate) use log::read_account;
 use log::read_log;
+#[cfg(feature = "bags")]
+pub(crate) use log::{read_account, recording_options};
 pub(crate) use source::Source;
 
 /// An exploration, or a laser log with what is found in it; `-` is standard input.
@@ -32,7 +32,7 @@ pub(crate) fn read_input(
     let name = file.display().to_string();
     let source = Source::open(file)?;
     match source.kind() {
-        FileKind::LaserLog(_) | FileKind::Recording(_) | FileKind::Table => {
+        FileKind::LaserLog(_) | FileKind::Recording(_) | FileKind::Table | FileKind::JsonLines => {
             let surveyed = surveyed(file, source, options, topics)?;
             Input::surveyed(name, surveyed).map_err(|error| failed(file, error))
         }
@@ -73,6 +73,7 @@ fn open_log(file: &Path) -> Result<Source, Failure> {
         FileKind::LaserLog(_)
         | FileKind::Recording(_)
         | FileKind::Table
+        | FileKind::JsonLines
         | FileKind::Text
         | FileKind::Empty => Ok(source),
         _ => Err(source.unfit("a laser log")),
@@ -101,7 +102,7 @@ pub(crate) fn read_tracked(
 }
 
 /// Shows on standard error how much is done.
-fn progress_bar(length: u64) -> ProgressBar {
+pub(crate) fn progress_bar(length: u64) -> ProgressBar {
     let bar = ProgressBar::with_draw_target(Some(length), ProgressDrawTarget::stderr_with_hz(10));
     if let Ok(style) = ProgressStyle::with_template("{spinner} {msg} {bar:30} {percent}%  {elapsed}") {
         bar.set_style(style);
