@@ -68,6 +68,9 @@ pub struct AnsweredPlace {
     /// The frame of the place, in which its bearings are given; absent without odometry.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub pose: Option<PlacedPose>,
+    /// With a log: the region of the building that the first visit to it was in; absent if it was in none.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub region: Option<u32>,
 }
 
 /// Two gateways that lead to one another.

@@ -4,7 +4,9 @@ use std::path::Path;
 
 use hssh::account::{PlacesAccount, PointName};
 use hssh_draw::{GridPicture, RegionPicture, draw_grid};
-use hssh_local::{DoorOptions, OccupancyGrid, PlaceGraph, PlaceOptions, RegionMap, Roadmap, doors};
+use hssh_local::{
+    DoorOptions, OccupancyGrid, PlaceGraph, PlaceOptions, RegionMap, Roadmap, doors, without_rims,
+};
 
 use super::export::write_places;
 use super::stars::{failure, tell};
@@ -24,13 +26,17 @@ pub(super) fn run(
     let map =
         RegionMap::new(grid, &options.region_options()).map_err(|error| failure(&options.map, error))?;
     let roadmap = Roadmap::new(grid, &map, &options.roadmap_options());
-    let graph = match options.detail {
-        true => Some(PlaceGraph::new(grid, parameters).map_err(|error| failure(&options.map, error))?),
-        false => None,
+    // For the axis, too, a gray rim is the edge of a wall and no frontier.
+    let ground = options.detail.then(|| without_rims(grid, options.region_options().rim));
+    let graph = match &ground {
+        Some(ground) => {
+            Some(PlaceGraph::new(ground, parameters).map_err(|error| failure(&options.map, error))?)
+        }
+        None => None,
     };
     let name = options.map.display().to_string();
-    let mut account = match &graph {
-        Some(graph) => PlacesAccount::of_axis(&name, &map, &roadmap, graph, grid),
+    let mut account = match graph.as_ref().zip(ground.as_ref()) {
+        Some((graph, ground)) => PlacesAccount::of_axis(&name, &map, &roadmap, graph, ground),
         None => PlacesAccount::of_regions(&name, &map, &roadmap, options.radius),
     };
     if let Some(file) = &options.names {

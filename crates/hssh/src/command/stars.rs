@@ -8,7 +8,7 @@ use hssh::pipeline::{MappingOptions, SurveyedLog};
 use hssh_draw::{GridPicture, draw_grid};
 use hssh_local::{
     DistanceField, LocalMapOptions, Neighborhood, Occupancy, OccupancyGrid, PlaceOptions, Visit, global_map,
-    neighborhood, read_floor_plan,
+    neighborhood, read_floor_plan, without_rims,
 };
 use hssh_metrics::Pose;
 
@@ -122,6 +122,7 @@ fn around(
     let outside = || Failure::Usage(format!("the point ({}, {}) is not on the map", point[0], point[1]));
     let side = 2.0 * (parameters.skeleton.shallowest_branch + MARGIN);
     let window = grid.window(point, side).ok_or_else(outside)?;
+    let window = without_rims(&window, options.region_options().rim);
     let found = neighborhood(&window, point, parameters).map_err(|error| failure(&options.map, error))?;
     let Neighborhood { kind, center, clearance, star, .. } = &found;
     let place = PlaceAccount::new(*kind, *center, *clearance, star);

@@ -109,6 +109,7 @@ impl Assembly<'_> {
                 star: named.name.clone(),
                 ends: map.olps_of(place).map(end).collect(),
                 pose: pose(index),
+                region: None,
             }
         };
         map.places().enumerate().map(place).collect()
@@ -242,6 +243,7 @@ pub(super) fn records(input: &Input, considered: usize, best: Option<&AnsweredMa
                 let (first, last) = visit.scans;
                 [first, last].map(|scan| surveyed.scan_number(scan))
             }),
+            region: None,
             times: visit.and_then(|(surveyed, visit)| {
                 let time = |scan: usize| surveyed.log.scans[scan].time;
                 Some([time(visit.scans.0)?, time(visit.scans.1)?])

@@ -1,6 +1,7 @@
 //! From an exploration or a robot's log to an answer, step by step: survey, likeness, search, maps, grid.
 
 mod assemble;
+mod building;
 mod driven;
 mod engine;
 mod error;
@@ -38,6 +39,7 @@ use hssh_topology::{Isomorphism, Position};
 
 use crate::answer::{Answer, AnswerWarning, AnsweredMap, ReadingAccount, Spot, Verdict, WarningKind};
 use assemble::{Assembly, records};
+use building::Building;
 use engine::{Likeness, Searched, Task, Telling};
 
 /// More threads than that for each core are of no use.
@@ -50,6 +52,8 @@ pub struct Mapped {
     searched: Searched,
     /// By rank.
     placed: Vec<PlacedMap>,
+    /// What the first map makes of the building, if there is a log.
+    building: Option<Building>,
     /// What the maps are of, if errors of perception were reckoned with.
     corrected: Option<Exploration>,
 }
@@ -58,6 +62,14 @@ pub struct Mapped {
 struct PlacedMap {
     positions: Vec<Position>,
     graph: Option<PoseGraph>,
+}
+
+impl PlacedMap {
+    /// Where every scan of the log was taken, in the frame of the first place.
+    fn scan_poses(&self, input: &Input) -> Option<Vec<Pose>> {
+        let SurveyedLog { survey, .. } = input.surveyed.as_ref()?;
+        driven::scan_poses(survey, &self.positions, self.graph.as_ref())
+    }
 }
 
 /// Finds the maps that explain an input. `monitor` shows other threads how far the search is, and lets them stop it.
@@ -113,7 +125,7 @@ pub fn map(input: &Input, options: &MappingOptions, monitor: &Arc<Monitor>) -> R
     if said > 0 {
         certificate.trust_said(said);
     }
-    let answer = Answer {
+    let mut answer = Answer {
         format: Answer::FORMAT.to_owned(),
         version: Answer::VERSION,
         verdict: Verdict::of(&account, &searched.summary, &certificate),
@@ -121,11 +133,21 @@ pub fn map(input: &Input, options: &MappingOptions, monitor: &Arc<Monitor>) -> R
         search: searched.summary.clone(),
         certificate,
         visits: records(input, considered, maps.first()),
+        building: None,
         maps,
         readings: None,
         warnings,
     };
-    Ok(Mapped { answer, searched, placed, corrected: None })
+    let building = match (&input.surveyed, placed.first().and_then(|map| map.scan_poses(input))) {
+        (Some(surveyed), Some(poses)) => {
+            Building::new(surveyed, &poses).map_err(|problem| building::warn(&mut answer, &problem)).ok()
+        }
+        _ => None,
+    };
+    if let (Some(building), Some(surveyed)) = (&building, &input.surveyed) {
+        building.tell(surveyed, &mut answer);
+    }
+    Ok(Mapped { answer, searched, placed, building, corrected: None })
 }
 
 /// The maps of the ranking, placed where measured travels allow it.
@@ -353,9 +375,7 @@ impl Mapped {
     /// such a map, or if the map's places are not placed.
     #[must_use]
     pub fn scan_poses(&self, input: &Input, rank: usize) -> Option<Vec<Pose>> {
-        let SurveyedLog { survey, .. } = input.surveyed.as_ref()?;
-        let PlacedMap { positions, graph } = self.placed(rank)?;
-        driven::scan_poses(survey, positions, graph.as_ref())
+        self.placed(rank)?.scan_poses(input)
     }
 
     /// Where every laser scan of the log was taken and when, those that cannot be used among them: they have the pose
@@ -399,6 +419,9 @@ impl Mapped {
     /// # Errors
     /// If there are no scans, no such map, or the grid would be too large.
     pub fn building(&self, input: &Input, rank: usize) -> Result<OccupancyGrid, PipelineError> {
+        if let (1, Some(building)) = (rank, &self.building) {
+            return Ok(building.grid().clone());
+        }
         let poses = self.scan_poses(input, rank);
         let (surveyed, poses) = input.surveyed.as_ref().zip(poses).ok_or(PipelineError::NoScans)?;
         Ok(building_map(&surveyed.log, &poses)?)

@@ -12,6 +12,7 @@ mod log;
 mod outputs;
 mod program;
 mod readings;
+mod rooms;
 mod signals;
 mod simulate;
 mod stars;

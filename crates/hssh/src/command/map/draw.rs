@@ -60,7 +60,10 @@ pub(super) fn draw(
         let [svg, map_stage, dot, g2o, grid, trajectory, building_stage] =
             files.map(|file| numbered(file.as_deref(), index));
         let title = title(&arguments.file, index, best.len(), kind(&mapped.answer));
-        let picture = MapPicture::new(map, Some(title))?;
+        let mut picture = MapPicture::new(map, Some(title))?;
+        if let (1, Some(building)) = (map.rank, &mapped.answer.building) {
+            picture = picture.in_building(building);
+        }
         let outputs = [&svg, &dot, &g2o, &grid, &trajectory];
         for file in outputs.into_iter().flatten() {
             refuse_input(&arguments.file, file)?;
