@@ -41,8 +41,8 @@ mod skeleton;
 mod survey;
 
 pub use carmen::{
-    LaserKind, LaserLog, LaserMessage, LaserMount, LaserView, LogError, LogReader, LogWarning, LoggedScan,
-    Message, MessageProblem,
+    LaserKind, LaserLog, LaserMessage, LaserMount, LaserView, LogError, LogPosition, LogReader, LogWarning,
+    LoggedScan, Message, MessageProblem,
 };
 pub use closing::{ClosedTrack, ClosingError, ClosingOptions, Closure, close_loops};
 pub use distance::DistanceField;

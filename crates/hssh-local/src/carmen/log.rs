@@ -7,6 +7,7 @@ use hssh_metrics::Pose;
 
 use super::error::{LogError, LogWarning};
 use super::mount::LaserMount;
+use super::position::LogPosition;
 use super::raw::{self, RawLog, RawScan};
 use super::reader::LogReader;
 use crate::scan::Scan;
@@ -23,8 +24,8 @@ pub struct LoggedScan {
     /// The pose after somebody's scan matching, or the raw one where nobody did any. For scoring only: no part of the mapper looks at it, but for the laser's
     /// place on the robot, which logs that nobody corrected tell by it.
     pub corrected: Pose,
-    /// The line of the log, counted from 1; in recordings without lines, the scan's number among all, counted from 1.
-    pub line: u64,
+    /// Where in the log it stands.
+    pub at: LogPosition,
     /// When it was taken, in seconds of the recording program's clock, if the log says so.
     pub time: Option<f64>,
 }
@@ -64,9 +65,9 @@ impl LaserLog {
     /// As [`read`](Self::read).
     pub fn read_with(source: impl Read, known: &LaserMount) -> Result<Self, LogError> {
         let mut reader = LogReader::new(source)?;
-        let mut raw = RawLog { is_text: true, ..RawLog::default() };
+        let mut raw = RawLog::default();
         while let Some(message) = reader.next_message()? {
-            raw.add(message, reader.line());
+            raw.add(message, LogPosition::Line(reader.line()));
         }
         let (lines, mut warnings) = (reader.line(), reader.into_warnings());
         if raw.scans.is_empty() {
@@ -81,13 +82,13 @@ impl LaserLog {
         raw.bridge_jumps(&mut warnings);
         let max_range = raw.limit(&mut warnings)?;
         let is_facing_unclear = raw.check_facing(view, max_range, &mut warnings);
-        warnings.sort_by_key(LogWarning::line);
+        warnings.sort_by_key(LogWarning::position);
         let logged = |scan: RawScan| LoggedScan {
             scan: Scan { ranges: raw::came_back(scan.ranges, max_range), view, turn },
             odometry: raw.trajectory[scan.moment].pose,
             moment: scan.moment,
             corrected: scan.corrected,
-            line: scan.line,
+            at: scan.at,
             time: scan.time,
         };
         Ok(LaserLog {
