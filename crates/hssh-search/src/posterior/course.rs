@@ -135,7 +135,10 @@ mod tests {
             }
             let turns = || [0.3, -1.0, about.mean.theta].into_iter();
             let least = course.way(from, to).least_half_chi2(turns());
-            assert!((about.least_half_chi2(turns()) - least).abs() < 1e-6 * least);
+            assert!(!about.certainly_exceeds(turns(), least), "{from} to {to}");
+            // Where much is summed up, the margin is larger than what is known of a short way.
+            let is_short = to < 35;
+            assert!(!is_short || about.certainly_exceeds(turns(), 0.9 * least), "{from} to {to}");
         }
     }
 }
