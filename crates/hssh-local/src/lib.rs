@@ -41,7 +41,7 @@ mod skeleton;
 mod survey;
 
 pub use carmen::{
-    GrowingLog, LaserKind, LaserLog, LaserMessage, LaserMount, LaserView, LogError, LogReader, LogWarning,
+    GrowingLog, LaserKind, LaserLog, LaserMessage, LaserMount, LaserView, LogError, LogPosition, LogReader, LogWarning,
     LoggedScan, Message, MessageProblem,
 };
 pub use closing::{ClosedTrack, ClosingError, ClosingOptions, Closure, close_loops};
