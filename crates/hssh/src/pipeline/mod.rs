@@ -30,11 +30,13 @@ use hssh_causal::Exploration;
 use hssh_draw::SearchTree;
 use hssh_local::{OccupancyGrid, PerceptionModel, building_map, global_poses, resemblance, visit_frames};
 use hssh_metrics::{Pose, PoseGraph};
+use hssh_search::Mapper;
 use hssh_topology::{Isomorphism, Position};
 
 use crate::answer::{Answer, AnswerWarning, AnsweredMap, ReadingAccount, Spot, Verdict, WarningKind};
 use assemble::{Assembly, records};
-use engine::{Likeness, Searched, Task, Telling};
+use engine::{Likeness, Telling};
+pub(crate) use engine::{Searched, Task};
 
 /// More threads than that for each core are of no use.
 const THREADS_PER_CORE: usize = 4;
@@ -104,10 +106,21 @@ pub fn map(input: &Input, options: &MappingOptions, monitor: &Arc<Monitor>) -> R
         return Ok(mapped);
     }
     let likeness = input.surveyed.as_ref().map(|surveyed| surveyed.likeness(options.posterior.likeness));
-    let task = Task { exploration: &exploration, options: &options, method, likeness, monitor };
-    let searched = task.search()?;
+    let task =
+        Task { exploration: &exploration, options: &options, method, likeness, monitor, is_online: false };
+    Ok(answered(input, &exploration, &options, task.search()?, warnings))
+}
 
-    let (maps, placed) = told(input, &searched, &exploration, &mut warnings);
+/// The answer that a search gives, of an input of which the travels of `exploration` were to be explained.
+pub(crate) fn answered(
+    input: &Input,
+    exploration: &Exploration,
+    options: &MappingOptions,
+    searched: Searched,
+    mut warnings: Vec<AnswerWarning>,
+) -> Mapped {
+    let considered = exploration.travels().len();
+    let (maps, placed) = told(input, &searched, exploration, &mut warnings);
     let account = input.account(considered, searched.explained as u64);
     let mut certificate = searched.certificate.clone();
     if let Some(evidence) = &account.evidence {
@@ -129,7 +142,7 @@ pub fn map(input: &Input, options: &MappingOptions, monitor: &Arc<Monitor>) -> R
         readings: None,
         warnings,
     };
-    Ok(Mapped { answer, searched, placed, corrected: None })
+    Mapped { answer, searched, placed, corrected: None }
 }
 
 /// The maps of the ranking, placed where measured travels allow it.
@@ -199,7 +212,7 @@ fn useful_threads(asked: usize, warnings: &mut Vec<AnswerWarning>) -> usize {
 
 impl MappingOptions {
     /// The method for an exploration: what was chosen, or what its measurements allow.
-    fn method_for(&self, exploration: &Exploration) -> Result<SearchMethod, PipelineError> {
+    pub(crate) fn method_for(&self, exploration: &Exploration) -> Result<SearchMethod, PipelineError> {
         let is_measured = || exploration.travels().iter().all(|travel| travel.odometry.is_some());
         let usual = if exploration.travels().is_empty() || self.search.genus.is_some() || !is_measured() {
             SearchMethod::BreadthFirst
@@ -276,6 +289,11 @@ impl Mapped {
     #[must_use]
     pub fn corrected(&self) -> Option<&Exploration> {
         self.corrected.as_ref()
+    }
+
+    /// The answer, and the mapper to go on with.
+    pub(crate) fn into_answer_and_mapper(self) -> (Answer, Option<Box<Mapper>>) {
+        (self.answer, self.searched.into_mapper())
     }
 
     /// The maps are those of an account of what was misread: no more probable than that.

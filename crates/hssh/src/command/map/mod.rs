@@ -86,7 +86,7 @@ fn refuse_what_needs_a_log(arguments: &MapArguments) -> Result<(), Failure> {
     if is_asked
         || !arguments.places.choice().is_usual()
         || !laser.choice().is_usual()
-        || laser.topics.is_given()
+        || laser.topics.choice().is_given()
     {
         let help = "--grid, --trajectory, --likeness, --debug-dir, --fov, --laser-pose, --scan, --odom, --base-frame and what counts as a place need a laser log: an exploration has no scans";
         return Err(Failure::Usage(help.to_owned()));
