@@ -5,7 +5,7 @@ use std::array::from_fn;
 use hssh_metrics::Pose;
 use nalgebra::{Matrix3, SMatrix};
 use numpy::ndarray::{Ix1, Ix2, Ix3};
-use numpy::{Element, PyArray1, PyArrayMethods, PyReadonlyArrayDyn, PyUntypedArrayMethods};
+use numpy::{Element, PyArray1, PyReadonlyArrayDyn, PyUntypedArrayMethods};
 use pyo3::exceptions::PyMemoryError;
 use pyo3::prelude::*;
 
@@ -31,9 +31,9 @@ fn array<'py, T: Element>(
     dtype: &str,
 ) -> PyResult<PyReadonlyArrayDyn<'py, T>> {
     let numpy = value.py().import("numpy")?;
-    let array = numpy.call_method1("asarray", (value,)).map_err(|problem| {
-        argument(format!("{name} cannot be an array: {}", problem.value(value.py())))
-    })?;
+    let array = numpy
+        .call_method1("asarray", (value,))
+        .map_err(|problem| argument(format!("{name} cannot be an array: {}", problem.value(value.py()))))?;
     let found: char = array.getattr("dtype")?.getattr("kind")?.extract()?;
     let is_empty = array.getattr("size")?.extract::<usize>()? == 0;
     if !kinds.contains(found) && !is_empty {
@@ -107,10 +107,12 @@ pub(crate) fn row(name: &str, value: &Bound<'_, PyAny>, finite: Finite) -> PyRes
         return Err(misshapen(name, "(N,)", array.shape()));
     }
     let view = array.as_array().into_dimensionality::<Ix1>().map_err(argument)?;
-    let mut numbers = room(name, view.len())?;
+    let mut numbers: Vec<f64> = room(name, view.len())?;
     numbers.extend(view.iter());
     match numbers.iter().position(|number| !number.is_finite()) {
-        Some(index) if finite == Finite::Required => Err(not_finite(name, &index.to_string(), numbers[index])),
+        Some(index) if finite == Finite::Required => {
+            Err(not_finite(name, &index.to_string(), numbers[index]))
+        }
         _ => Ok(numbers),
     }
 }
@@ -214,8 +216,9 @@ pub(crate) fn selection(name: &str, value: &Bound<'_, PyAny>, count: usize) -> P
     if *mask.shape() != [count] {
         return Err(misshapen(name, &format!("({count},)"), mask.shape()));
     }
-    let chosen = mask.as_array().iter().enumerate().filter(|(_, chosen)| **chosen).map(|(index, _)| index);
-    Ok(chosen.map(|index| index as u32).collect())
+    let mask = mask.as_array();
+    let chosen = mask.iter().enumerate().filter(|(_, chosen)| **chosen);
+    Ok(chosen.map(|(index, _)| index as u32).collect())
 }
 
 /// The cells of an (H, W) array, and what kind of numbers they were; `uint8` and `int8` alike as 16 bits.
@@ -254,7 +257,7 @@ pub(crate) fn stack<'py, const D: usize>(
     py: Python<'py>,
     matrices: &[SMatrix<f64, D, D>],
 ) -> PyResult<Bound<'py, PyAny>> {
-    let mut numbers = Vec::with_capacity(matrices.len() * D * D);
+    let mut numbers: Vec<f64> = Vec::with_capacity(matrices.len() * D * D);
     for matrix in matrices {
         numbers.extend(matrix.transpose().iter());
     }

@@ -48,7 +48,9 @@ impl PyEmbeddedGraph {
     fn of(degrees: Vec<u32>, links: Vec<[u32; 2]>) -> PyResult<Self> {
         let darts: u64 = degrees.iter().map(|&degree| u64::from(degree)).sum();
         if darts > MOST_DARTS {
-            return Err(argument(format!("{darts} darts are more than the {MOST_DARTS} that a graph may have")));
+            return Err(argument(format!(
+                "{darts} darts are more than the {MOST_DARTS} that a graph may have"
+            )));
         }
         let links = links.into_iter().map(|[a, b]| (Dart::new(a), Dart::new(b)));
         let graph = EmbeddedGraph::from_links(degrees, links).map_err(argument)?;
@@ -66,7 +68,10 @@ fn existing(graph: &EmbeddedGraph, dart: u32) -> PyResult<Dart> {
     if dart < graph.dart_count() {
         return Ok(Dart::new(dart));
     }
-    Err(argument(format!("dart {dart} does not exist: the vertices have {} darts together", graph.dart_count())))
+    Err(argument(format!(
+        "dart {dart} does not exist: the vertices have {} darts together",
+        graph.dart_count()
+    )))
 }
 
 #[pymethods]
@@ -119,7 +124,9 @@ impl PyEmbeddedGraph {
         let mut links = Vec::new();
         for (&(from, to), &dart) in &darts {
             let other = darts.get(&(to, from)).ok_or_else(|| {
-                argument(format!("vertex number {from} has number {to} for a neighbor, but not the other way round"))
+                argument(format!(
+                    "vertex number {from} has number {to} for a neighbor, but not the other way round"
+                ))
             })?;
             if from < to {
                 links.push([dart, *other]);
@@ -153,7 +160,9 @@ impl PyEmbeddedGraph {
             let mut graph = self.graph();
             let ends = (pending(&graph, dart)?, pending(&graph, other)?);
             if dart == other {
-                return Err(argument(format!("dart {dart} cannot be linked to itself: an edge has two ends")));
+                return Err(argument(format!(
+                    "dart {dart} cannot be linked to itself: an edge has two ends"
+                )));
             }
             let _ = graph.link(ends.0, ends.1);
             Ok(())

@@ -25,7 +25,10 @@ impl PyMarginals {
         if pose < self.count {
             return Ok(PoseId(pose as u32));
         }
-        Err(argument(format!("pose {pose} does not exist: the graph has {} poses, counted from 0", self.count)))
+        Err(argument(format!(
+            "pose {pose} does not exist: the graph has {} poses, counted from 0",
+            self.count
+        )))
     }
 }
 

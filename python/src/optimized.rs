@@ -145,6 +145,11 @@ impl PySolution {
 
     fn __repr__(&self) -> String {
         let account = self.account();
-        format!("<PoseGraphSolution: {} poses, chi2 {:.6}, {}>", account.poses.len(), account.chi2, account.ending)
+        format!(
+            "<PoseGraphSolution: {} poses, chi2 {:.6}, {}>",
+            account.poses.len(),
+            account.chi2,
+            account.ending
+        )
     }
 }

@@ -94,11 +94,7 @@ impl PyPoseGraph {
     fn given(&self, value: &Bound<'_, PyAny>) -> PyResult<Vec<Pose>> {
         let rows = table::<3>("poses", value, Finite::Required)?;
         if rows.len() != self.count() {
-            return Err(argument(format!(
-                "{} poses were given for a graph of {}",
-                rows.len(),
-                self.count()
-            )));
+            return Err(argument(format!("{} poses were given for a graph of {}", rows.len(), self.count())));
         }
         let world = self.graph().poses()[self.count()..].iter().copied();
         Ok(rows.into_iter().map(pose).chain(world).collect())
@@ -143,7 +139,9 @@ impl PyPoseGraph {
         let count = estimates.as_ref().map_or(mentioned, Vec::len);
         let most = 1 << 26;
         if count > most {
-            return Err(argument(format!("the edges mention {count} poses, and {most} are the most that are taken")));
+            return Err(argument(format!(
+                "the edges mention {count} poses, and {most} are the most that are taken"
+            )));
         }
         let anchors = anchored.map_or(Ok(Vec::new()), |anchored| selection("anchored", anchored, count))?;
         calmly(|| {
@@ -151,7 +149,9 @@ impl PyPoseGraph {
             for index in 0..count {
                 graph.add_pose(estimates.as_ref().map_or(Pose::IDENTITY, |estimates| pose(estimates[index])));
             }
-            for (index, ((&[from, to], &tau), matrix)) in ends.iter().zip(&measured).zip(informations).enumerate() {
+            for (index, ((&[from, to], &tau), matrix)) in
+                ends.iter().zip(&measured).zip(informations).enumerate()
+            {
                 let information = Information::semidefinite(matrix)
                     .map_err(|problem| argument(format!("information[{index}] is none: {problem}")))?;
                 let (from, to, relative_pose) = (PoseId(from), PoseId(to), pose(tau));
@@ -371,7 +371,8 @@ impl PyPoseGraph {
         max_iterations: Option<usize>,
         tolerance: f64,
     ) -> PyResult<PySolution> {
-        for (name, number) in [("deviations", deviations), ("threshold", threshold), ("tolerance", tolerance)] {
+        for (name, number) in [("deviations", deviations), ("threshold", threshold), ("tolerance", tolerance)]
+        {
             if !(number > 0.0 && number.is_finite()) {
                 return Err(argument(format!("{name} is {number}: write a positive number, like 0.5")));
             }

@@ -76,12 +76,13 @@ pub(crate) fn watched<T: Send>(
     py.detach(|| {
         scope(|scope| {
             let (sender, receiver) = channel();
-            let begun = Builder::new().name("hssh".to_owned()).stack_size(STACK).spawn_scoped(scope, || {
-                STOP.set(Some(Arc::clone(stop)));
-                let done = catch_unwind(AssertUnwindSafe(|| work(stop)));
-                STOP.set(None);
-                let _ = sender.send(done);
-            });
+            let begun =
+                Builder::new().name("hssh".to_owned()).stack_size(STACK).spawn_scoped(scope, move || {
+                    STOP.set(Some(Arc::clone(stop)));
+                    let done = catch_unwind(AssertUnwindSafe(|| work(stop)));
+                    STOP.set(None);
+                    let _ = sender.send(done);
+                });
             begun.map_err(|problem| error(Kind::Internal, format!("no thread can be started: {problem}")))?;
             let mut stopped = None;
             loop {
@@ -102,10 +103,7 @@ pub(crate) fn watched<T: Send>(
 }
 
 /// Does work that has nothing to show before its end.
-pub(crate) fn finished<T: Send>(
-    py: Python<'_>,
-    work: impl FnOnce(&Arc<Stop>) -> T + Send,
-) -> PyResult<T> {
+pub(crate) fn finished<T: Send>(py: Python<'_>, work: impl FnOnce(&Arc<Stop>) -> T + Send) -> PyResult<T> {
     let done = watched(py, &Arc::default(), work)?;
     done.stopped.map_or(Ok(done.value), Err)
 }

@@ -54,7 +54,9 @@ pub enum OnlineError {
     #[error(transparent)]
     Visit(#[from] VisitError),
     /// Hypotheses are counted from beginning to end.
-    #[error("hypotheses are counted for a whole exploration: search in another way to go on travel by travel")]
+    #[error(
+        "hypotheses are counted for a whole exploration: search in another way to go on travel by travel"
+    )]
     Counted,
     /// Errors of perception are reckoned with in whole explorations.
     #[error("errors of perception are reckoned with in whole explorations, not travel by travel")]

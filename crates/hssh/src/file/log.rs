@@ -52,9 +52,7 @@ pub fn read_log(
     let alone = |log: LaserLog| ReadLog { log, used: Vec::new() };
     match source.kind() {
         FileKind::Recording(_) => bag::read_log(file, source, laser, topics),
-        kind if topics.is_given() => {
-            Err(FileError::NoTopics { file: file.to_owned(), kind: kind.clone() })
-        }
+        kind if topics.is_given() => Err(FileError::NoTopics { file: file.to_owned(), kind: kind.clone() }),
         FileKind::Table => {
             let options = TableOptions { view: mount.view, laser: mount.pose };
             read_table(source.into_content(), &options)

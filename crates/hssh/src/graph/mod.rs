@@ -13,9 +13,7 @@ use nalgebra::Matrix2;
 
 pub use error::GraphFailure;
 pub use optimize::Optimum;
-pub use options::{
-    GraphOptions, KernelChoice, MethodChoice, StartChoice, USUAL_THRESHOLD, WrongClosures,
-};
+pub use options::{GraphOptions, KernelChoice, MethodChoice, StartChoice, USUAL_THRESHOLD, WrongClosures};
 
 /// Up to this many poses are drawn with the ellipse of their covariance.
 const MOST_ELLIPSES: usize = 40;

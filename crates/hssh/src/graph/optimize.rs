@@ -9,9 +9,7 @@ use hssh_metrics::{
 };
 
 use super::error::GraphFailure;
-use super::options::{
-    GraphOptions, KernelChoice, MethodChoice, StartChoice, USUAL_THRESHOLD, WrongClosures,
-};
+use super::options::{GraphOptions, KernelChoice, MethodChoice, StartChoice, USUAL_THRESHOLD, WrongClosures};
 
 /// Sweeps of relaxation if no other number is asked for: one costs as much as a few edges, and it takes many.
 const MAX_SWEEPS: usize = 10_000;

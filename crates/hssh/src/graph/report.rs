@@ -27,8 +27,10 @@ impl Optimized {
         let ranks = graph.edges().iter().zip(&optimum.weights).filter(|&(_, &weight)| weight > 0.0);
         let measured: usize = ranks.map(|(edge, _)| edge.information.rank()).sum();
         let degrees_of_freedom = measured as i64 - 3 * graph.free_poses() as i64;
-        let poses =
-            graph.pose_ids().zip(&optimum.poses).filter_map(|(pose, found)| Some((pose, label(pose)?, found)));
+        let poses = graph
+            .pose_ids()
+            .zip(&optimum.poses)
+            .filter_map(|(pose, found)| Some((pose, label(pose)?, found)));
         let (landmarks, poses): (Vec<_>, Vec<_>) = poses.partition(|&(pose, ..)| file.is_landmark(pose));
         let priors = graph.edges().iter().filter(|edge| file.is_prior(edge)).count();
         let closes = |(&kind, edge): (&EdgeKind, &Edge)| kind != EdgeKind::Odometry && !file.is_prior(edge);

@@ -8,7 +8,9 @@ use hssh::file::{self, ReadLog};
 use hssh::kind::FileKind;
 use hssh::pipeline::{Input, LaserChoice, MappingOptions, SurveyedLog, TrackedLog};
 use hssh_causal::Exploration;
-use hssh_local::{LaserLog, MatchOptions, OccupancyGrid, Reply, SurveyError, SurveyStage, read_map_with_remarks};
+use hssh_local::{
+    LaserLog, MatchOptions, OccupancyGrid, Reply, SurveyError, SurveyStage, read_map_with_remarks,
+};
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 
 use crate::arguments::TopicArguments;
