@@ -11,8 +11,9 @@ use pyo3::prelude::*;
 
 use crate::errors::{argument, wrong_type};
 
-/// No array has more rows.
+/// No array has more rows, nor more numbers.
 const MOST_ROWS: usize = 1 << 26;
+const MOST_NUMBERS: usize = 1 << 30;
 
 /// What a number may be.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -35,8 +36,13 @@ fn array<'py, T: Element>(
         .call_method1("asarray", (value,))
         .map_err(|problem| argument(format!("{name} cannot be an array: {}", problem.value(value.py()))))?;
     let found: char = array.getattr("dtype")?.getattr("kind")?.extract()?;
-    let is_empty = array.getattr("size")?.extract::<usize>()? == 0;
-    if !kinds.contains(found) && !is_empty {
+    let size: usize = array.getattr("size")?.extract()?;
+    if size > MOST_NUMBERS {
+        return Err(argument(format!(
+            "{name} has {size} numbers, and {MOST_NUMBERS} are the most that are taken"
+        )));
+    }
+    if !kinds.contains(found) && size > 0 {
         let found = array.getattr("dtype")?;
         return Err(wrong_type(format!("{name} must be an array of {}, not of {found}", words(kinds))));
     }

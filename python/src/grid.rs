@@ -60,11 +60,11 @@ impl PyGrid {
         [height, width]: [usize; 2],
         cells: Vec<Occupancy>,
         resolution: f64,
-        origin: (f64, f64),
+        origin: [f64; 2],
     ) -> PyResult<Self> {
         let side =
             |side: usize| u32::try_from(side).map_err(|_| argument(format!("{side} cells are too many")));
-        let lattice = Lattice::new(side(width)?, side(height)?, resolution, [origin.0, origin.1]);
+        let lattice = Lattice::new(side(width)?, side(height)?, resolution, origin);
         let grid = OccupancyGrid::new(lattice.map_err(argument)?, cells).map_err(argument)?;
         Ok(PyGrid::of(grid, "grid".to_owned()))
     }
@@ -73,8 +73,8 @@ impl PyGrid {
 #[pymethods]
 impl PyGrid {
     #[new]
-    #[pyo3(signature = (cells, resolution, origin = (0.0, 0.0)))]
-    fn new(cells: &Bound<'_, PyAny>, resolution: f64, origin: (f64, f64)) -> PyResult<Self> {
+    #[pyo3(signature = (cells, resolution, origin = [0.0, 0.0]))]
+    fn new(cells: &Bound<'_, PyAny>, resolution: f64, origin: [f64; 2]) -> PyResult<Self> {
         let (kind, shape, numbers) = self::cells("cells", cells)?;
         calmly(|| {
             let known = |(index, &number): (usize, &i64)| match (kind, number) {
@@ -113,11 +113,11 @@ impl PyGrid {
     /// -------
     /// Grid
     #[staticmethod]
-    #[pyo3(signature = (pixels, resolution, origin = (0.0, 0.0), *, negate = false, occupied_thresh = 0.65, free_thresh = 0.196))]
+    #[pyo3(signature = (pixels, resolution, origin = [0.0, 0.0], *, negate = false, occupied_thresh = 0.65, free_thresh = 0.196))]
     fn from_image(
         pixels: &Bound<'_, PyAny>,
         resolution: f64,
-        origin: (f64, f64),
+        origin: [f64; 2],
         negate: bool,
         occupied_thresh: f64,
         free_thresh: f64,

@@ -93,7 +93,7 @@ impl PyLog {
     /// -------
     /// Log
     #[staticmethod]
-    #[pyo3(signature = (ranges, *, angle_min, angle_increment, times = None, odometry = None, laser_pose = (0.0, 0.0),
+    #[pyo3(signature = (ranges, *, angle_min, angle_increment, times = None, odometry = None, laser_pose = [0.0, 0.0],
         range_min = 0.0, range_max = f64::INFINITY, name = "log"))]
     #[allow(clippy::too_many_arguments)] // keywords, each with its default
     fn from_arrays(
@@ -103,7 +103,7 @@ impl PyLog {
         angle_increment: f64,
         times: Option<&Bound<'_, PyAny>>,
         odometry: Option<&Bound<'_, PyAny>>,
-        laser_pose: (f64, f64),
+        laser_pose: [f64; 2],
         range_min: f64,
         range_max: f64,
         name: &str,
@@ -113,7 +113,7 @@ impl PyLog {
         let numbers = [
             ("angle_min", angle_min),
             ("angle_increment", angle_increment),
-            ("laser_pose", laser_pose.0 + laser_pose.1),
+            ("laser_pose", laser_pose[0] + laser_pose[1]),
         ];
         for (name, number) in numbers {
             if !number.is_finite() {
@@ -164,8 +164,7 @@ impl PyLog {
         let scans = ranges.into_iter().zip(&times).map(scan).collect();
         let odometry = odometry.unwrap_or_default().into_iter().zip(&times);
         let odometry = odometry.map(|(robot, &time)| TimedPose { time, pose: pose(robot) }).collect();
-        let recording =
-            Recording { scans, odometry, laser: [laser_pose.0, laser_pose.1], warnings: Vec::new() };
+        let recording = Recording { scans, odometry, laser: laser_pose, warnings: Vec::new() };
         let log = finished(py, |_| LaserLog::from_recording(recording))?;
         let log = log.map_err(|problem| error(Kind::Format, problem))?;
         Ok(PyLog { log: Arc::new(log), name: name.to_owned(), used: Vec::new() })

@@ -1,6 +1,6 @@
 //! Mapping while the robot goes on.
 
-use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError, TryLockError};
 
 use hssh::online::OnlineMapping;
 use hssh::pipeline::Monitor;
@@ -8,7 +8,7 @@ use hssh_causal::{Exploration, NamedStar};
 use hssh_search::StopReason;
 use pyo3::prelude::*;
 
-use crate::errors::{interrupted, of_online};
+use crate::errors::{Kind, error, interrupted, of_online};
 use crate::exploration::{PyExploration, measurement};
 use crate::mapped::{PyMapped, options};
 use crate::star::PyStar;
@@ -36,7 +36,19 @@ fn named(known: Option<&Exploration>, star: PyStar, name: Option<String>) -> Nam
 }
 
 impl PyOnline {
-    fn mapping(&self) -> MutexGuard<'_, OnlineMapping> {
+    /// The mapping, for whoever holds the interpreter, which must not wait for a search of another thread.
+    fn mapping(&self) -> PyResult<MutexGuard<'_, OnlineMapping>> {
+        match self.mapping.try_lock() {
+            Ok(mapping) => Ok(mapping),
+            Err(TryLockError::Poisoned(poisoned)) => Ok(poisoned.into_inner()),
+            Err(TryLockError::WouldBlock) => {
+                Err(error(Kind::Search, "the mapper is at work in another thread"))
+            }
+        }
+    }
+
+    /// The mapping, for a thread that may wait.
+    fn waited(&self) -> MutexGuard<'_, OnlineMapping> {
         self.mapping.lock().unwrap_or_else(PoisonError::into_inner)
     }
 }
@@ -68,7 +80,7 @@ impl PyOnline {
         let star = PyStar::of(star)?;
         let odometry = measurement("the travel", odometry, covariance)?;
         let entry = star.end(entry, &format!("the star {} of the arrival", star.star))?;
-        let mut mapping = self.mapping();
+        let mut mapping = self.mapping()?;
         let exploration = mapping.exploration();
         let last = exploration.visits().last().unwrap_or(exploration.start());
         let before = PyStar::bare(exploration.star(last).clone());
@@ -81,7 +93,7 @@ impl PyOnline {
     fn advance(&self, py: Python<'_>) -> PyResult<String> {
         self.monitor.reset();
         let stop = Arc::new(Stop::of(Arc::clone(&self.monitor)));
-        let done = watched(py, &stop, |_| self.mapping().advance())?;
+        let done = watched(py, &stop, |_| self.waited().advance())?;
         match done.stopped {
             Some(_) => Err(interrupted(py, None)),
             None => Ok(word(done.value)),
@@ -92,18 +104,18 @@ impl PyOnline {
     fn set_limits(&self, options_json: &str) -> PyResult<()> {
         let limits = options(options_json)?.limits;
         calmly(|| {
-            self.mapping().set_limits(limits);
+            self.mapping()?.set_limits(limits);
             Ok(())
         })
     }
 
     fn answer(&self, py: Python<'_>) -> PyResult<PyMapped> {
-        Ok(PyMapped::of_answer(finished(py, |_| self.mapping().answer())?))
+        Ok(PyMapped::of_answer(finished(py, |_| self.waited().answer())?))
     }
 
-    fn exploration(&self) -> PyExploration {
-        let mapping = self.mapping();
-        PyExploration::of(mapping.exploration().clone(), "exploration".to_owned())
+    fn exploration(&self) -> PyResult<PyExploration> {
+        let mapping = self.mapping()?;
+        Ok(PyExploration::of(mapping.exploration().clone(), "exploration".to_owned()))
     }
 }
 

@@ -453,7 +453,18 @@ impl PyPoseGraph {
     }
 
     fn __reduce__(slf: &Bound<'_, Self>) -> PyResult<(Py<PyAny>, (String,))> {
-        Ok((slf.get_type().getattr("from_text")?.unbind(), (slf.get().file.to_g2o(),)))
+        let file = &slf.get().file;
+        // What nobody placed has no vertex.
+        let unplaced = |line: &&str| {
+            let label =
+                line.strip_prefix("VERTEX_SE2 ").and_then(|rest| rest.split(' ').next()?.parse().ok());
+            label.is_some_and(|label| file.unplaced.iter().any(|&pose| file.label(pose) == Some(label)))
+        };
+        let mut text = file.to_g2o();
+        if !file.unplaced.is_empty() {
+            text = text.lines().filter(|line| !unplaced(line)).map(|line| line.to_owned() + "\n").collect();
+        }
+        Ok((slf.get_type().getattr("from_text")?.unbind(), (text,)))
     }
 }
 

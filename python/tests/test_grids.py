@@ -114,7 +114,7 @@ def test_the_floor_that_comes_with_the_repository():
         (lambda: hssh.Grid(np.zeros((4, 4), bool), -0.1), hssh.ArgumentError, "."),
         (lambda: hssh.Grid(np.zeros((4, 4), bool), float("nan")), hssh.ArgumentError, "."),
         (lambda: hssh.Grid(np.zeros((4, 4), bool), 0.1, (np.inf, 0)), hssh.ArgumentError, "."),
-        (lambda: hssh.Grid(np.broadcast_to(False, (10**6, 10**6)), 0.1), hssh.ArgumentError, "are the most"),
+        (lambda: hssh.Grid(np.broadcast_to(False, (10**6, 10**6)), 0.1), hssh.ArgumentError, "1000000000000 numbers"),
         (lambda: hssh.Grid.from_image(np.full((4, 4), 300), 0.1), hssh.ArgumentError, "a pixel is from 0 to 255"),
         (lambda: hssh.find_places(hssh.Grid(np.ones((40, 40), bool), 0.1)), hssh.SurveyError, "."),
         (lambda: hssh.find_places(hssh.Grid(two_rooms(), 0.05), radius=0), hssh.ArgumentError, "radius is 0"),

@@ -106,7 +106,7 @@ def test_what_is_no_log_is_refused(other, kind, words):
         hssh.Log.from_arrays(**{**usual, **other})
 
 
-def test_bags_are_read_as_the_program_reads_them():
+def test_bags_are_read_as_the_program_reads_them(tmp_path):
     log = hssh.read_log(FIXTURES / "bags" / "usual")
     assert len(log) > 0 and log.used and log.ranges.shape[0] == len(log)
     assert np.isfinite(log.times).all()
@@ -117,23 +117,29 @@ def test_bags_are_read_as_the_program_reads_them():
     with pytest.raises(hssh.FormatError, match="is a pose graph .*, but this command takes a laser log"):
         hssh.read_log(FIXTURES / "graphs" / "two-laps.g2o")
     with pytest.raises(hssh.FormatError, match="has no topics nor frames"):
-        hssh.read_log(FIXTURES / "aces.ron", scan="/scan") if False else table_log(scan="/scan")
+        hssh.read_log(carmen(tmp_path), scan="/scan")
 
 
-def table_log(**options):
-    """A table of scans, read."""
-    import tempfile
+def carmen(folder):
+    """A log in CARMEN's form, written here."""
+    poses, _, ranges = drive(30)
+    lines = []
+    for number, (pose, sweep) in enumerate(zip(poses, ranges)):
+        where = " ".join(f"{part:.6f}" for part in pose)
+        beams = " ".join(f"{length:.2f}" for length in sweep)
+        lines.append(f"FLASER {len(sweep)} {beams} {where} {where} {number * 0.1:.3f} host {number * 0.1:.3f}")
+    (folder / "room.log").write_text("\n".join(lines) + "\n")
+    return folder / "room.log"
 
-    lines = ["# angle_min: -1.5707963 angle_increment: 0.0174533", "time,x,y,theta"]
-    poses, _, ranges = drive(5)
-    rows = [[index, *pose, *sweep] for index, (pose, sweep) in enumerate(zip(poses, ranges))]
-    lines += [",".join(f"{number:.6f}" for number in row) for row in rows]
-    with tempfile.NamedTemporaryFile("w", suffix=".csv", delete=False) as file:
-        file.write("\n".join(lines) + "\n")
-    try:
-        return hssh.read_log(file.name, **options)
-    finally:
-        os.unlink(file.name)
+
+def test_a_log_of_carmen_says_what_its_arrays_say(tmp_path):
+    poses, angles, ranges = drive(30)
+    log = hssh.read_log(carmen(tmp_path))
+    np.testing.assert_allclose(log.ranges, ranges, atol=0.006)
+    np.testing.assert_allclose(log.odometry, poses, atol=1e-5)
+    np.testing.assert_allclose(log[0].angles, angles, atol=1e-9)
+    turned = hssh.read_log(carmen(tmp_path), laser_pose=(0.0, 0.0, np.pi / 6))
+    np.testing.assert_allclose(turned[0].angles, angles + np.pi / 6, atol=1e-9)
 
 
 def test_the_log_of_aces_becomes_its_map():

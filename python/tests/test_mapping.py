@@ -20,15 +20,17 @@ ACES = FIXTURES / "aces.ron"
 
 
 @pytest.mark.parametrize(
-    "planar, nodes, maps, final, closed, optimal",
-    [(False, 317, 188, 88, 4, 2), (True, 240, 147, 62, 3, 1)],
+    "planar, nodes, maps, final, closed, optimal, genera",
+    [(False, 317, 188, 88, 4, 2, [0, 1]), (True, 240, 147, 62, 3, 1, [0])],
 )
-def test_published_counts_of_three_by_three(planar, nodes, maps, final, closed, optimal):
+def test_published_counts_of_three_by_three(planar, nodes, maps, final, closed, optimal, genera):
     answer = hssh.map(explored(3, 3, snake(3, 3)), planar=planar, listed=None)
     found = answer.search.found
     assert (answer.search.nodes, answer.search.maps_made, found.maps) == (nodes, maps, final)
     assert (found.closed, found.tied, len(answer.maps)) == (closed, optimal, final)
-    assert [map.measure for map in answer.maps[:optimal]] == [hssh.answer.Measure(0, 6, 9, 0)] * optimal or not planar
+    best = [map.measure for map in answer.maps[:optimal]]
+    assert [(measure.undetermined_boundaries, measure.paths, measure.places) for measure in best] == [(0, 6, 9)] * optimal
+    assert sorted(measure.genus for measure in best) == genera
     levels = [level.nodes for level in answer.search.levels]
     assert levels[:13] == [1, 1, 1, 1, 1, 2, 2, 4, 4, 7, 7, 11, 18 if planar else 21]
 
@@ -151,7 +153,7 @@ class TestOptions:
             {"max_genus": 1},
             {"perpendicular": True},
             {"consistent_boundaries": True},
-            {"circular_paths": True, "max_places": 9},
+            {"circular_paths": True},
             {"genus": "first"},
             {"threads": 1},
         ]
@@ -159,7 +161,7 @@ class TestOptions:
         assert all(answer.maps for answer in answers)
         assert answers[0].search.order == "proof" and answers[0].certificate.proved
         assert answers[1].search.closed_only
-        assert answers[6].search.nodes > 317
+        assert answers[6].search.nodes >= 317
 
     def test_posteriors_have_theirs(self):
         for options in ({"score": "likelihood", "prior": "simplicity", "weights": (0, 2, 1)}, {"area": 4000.0}, {"best": 2, "rest": 0.5}):
@@ -347,11 +349,14 @@ class TestOnline:
                 hssh.Mapper("0+ 0-", **refused)
 
     def test_limits_and_signals_leave_it_to_go_on(self):
-        exploration = explored(5, 5, snake(5, 5))
-        mapper = hssh.Mapper(exploration.stars[exploration.start], planar=True)
+        exploration = explored(6, 6, snake(6, 6))
+        mapper = hssh.Mapper(exploration.stars[exploration.start])
         for _ in self.told(mapper, exploration):
             pass
         assert mapper.advance(nodes=500) == "node_limit"
-        assert mapper.answer().search.nodes > 500
-        stop = interrupting(0.3, lambda: [mapper.advance(seconds=60, nodes=10**9), time.sleep(5)])
-        assert stop.partial is None or isinstance(stop.partial, hssh.Answer)
+        before = mapper.answer().search.nodes
+        assert before > 500
+        stop = interrupting(0.5, lambda: mapper.advance(seconds=60, nodes=10**9))
+        assert isinstance(stop.partial, hssh.Answer) and stop.partial.search.stop == "interrupted"
+        assert stop.partial.search.nodes > before
+        assert mapper.advance(seconds=0.2) == "time_limit"

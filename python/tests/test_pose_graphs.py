@@ -31,7 +31,7 @@ def random_graph(seed, count=12, closures=8):
     truth = np.cumsum(random.normal([1.0, 0.3, 0.4], 0.3, (count, 3)), axis=0)
     truth -= truth[0]
     edges = [(i, i + 1) for i in range(count - 1)]
-    edges += [tuple(random.choice(count, 2, replace=False)) for _ in range(closures)]
+    edges += [tuple(random.choice(count, 2, replace=False)) for _ in range(closures - 1)] + [(count - 1, 0)]
     edges = np.array(edges)
     roots = random.normal(size=(len(edges), 3, 3)) + 4 * np.eye(3)
     information = roots @ roots.transpose(0, 2, 1)
@@ -79,11 +79,12 @@ def test_kernels_minimize_what_they_are_said_to(robust, rho):
     measurements[-1] += [2.0, -1.0, 0.5]
     graph = hssh.PoseGraph(truth, edges, measurements, information)
     found = graph.optimize(robust=robust, start="poses", max_iterations=1000, tolerance=1e-14)
-    is_closure = graph.closures()
+    # Poses that dead reckoning joins directly are believed.
+    is_suspect = np.abs(edges[:, 0] - edges[:, 1]) > 1
 
     def cost(flat):
         chi2 = (residuals(flat, edges, measurements, information).reshape(-1, 3) ** 2).sum(axis=1)
-        return np.where(is_closure, rho(chi2, 3.0), chi2)
+        return np.where(is_suspect, rho(chi2, 3.0), chi2)
 
     at_ours = cost(found.poses[1:].ravel()).sum()
     assert found.robust_cost == pytest.approx(at_ours, rel=1e-9)
@@ -148,6 +149,7 @@ def test_a_graph_without_poses_is_laid_out_by_its_measurements():
     with pytest.raises(hssh.ArgumentError, match="does not say where 12 of its 12 poses are"):
         free.optimize(start="poses")
     assert free._repr_svg_() is None
+    assert pickle.loads(pickle.dumps(free)).optimize().chi2 == pytest.approx(placed.chi2, rel=1e-9)
 
 
 class TestArrays:
@@ -210,7 +212,7 @@ class TestArrays:
             ({"information": -np.eye(3)}, ValueError, r"information\[0\] is none: not positive definite"),
             ({"information": np.triu(np.ones((3, 3)))}, ValueError, "not symmetric"),
             ({"information": np.full((3, 3), np.nan)}, ValueError, "which is no finite number"),
-            ({"poses": np.broadcast_to(np.zeros(3), (10**9, 3))}, ValueError, "1000000000 rows"),
+            ({"poses": np.broadcast_to(np.zeros(3), (10**9, 3))}, ValueError, "3000000000 numbers"),
             ({"edges": np.full((19, 2), 10**12)}, ValueError, r"edges\[0, 0\] is 1000000000000"),
             ({"poses": object()}, TypeError, "not of object"),
         ],

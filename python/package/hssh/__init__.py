@@ -1,7 +1,7 @@
 """Topological maps of places that look alike, pose graphs, laser logs and grid maps, as objects and numpy arrays.
 
-Lengths are in metres, angles in radians, counterclockwise, times in seconds. Places, visits, travels, scans and poses count from 0, ranks of
-maps from 1. A pose is a row x, y, θ.
+Lengths are in metres, angles in radians, counterclockwise, times in seconds. Places, visits, travels, scans and poses count from 0,
+ranks of maps from 1. A pose is a row x, y, θ.
 
 * `PoseGraph`, `read_pose_graph`: least squares on poses in the plane.
 * `Star`, `EmbeddedGraph`: local topology, and rotation systems with faces and genus.

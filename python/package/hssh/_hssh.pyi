@@ -236,7 +236,7 @@ class Log:
         angle_increment: float,
         times: ArrayLike | None = None,
         odometry: ArrayLike | None = None,
-        laser_pose: tuple[float, float] = (0.0, 0.0),
+        laser_pose: ArrayLike = ...,
         range_min: float = 0.0,
         range_max: float = ...,
         name: str = "log",
@@ -305,12 +305,12 @@ class Survey:
 
 @final
 class Grid:
-    def __new__(cls, cells: ArrayLike, resolution: float, origin: tuple[float, float] = (0.0, 0.0)) -> Grid: ...
+    def __new__(cls, cells: ArrayLike, resolution: float, origin: ArrayLike = ...) -> Grid: ...
     @staticmethod
     def from_image(
         pixels: ArrayLike,
         resolution: float,
-        origin: tuple[float, float] = (0.0, 0.0),
+        origin: ArrayLike = ...,
         *,
         negate: bool = False,
         occupied_thresh: float = 0.65,

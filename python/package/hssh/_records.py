@@ -7,9 +7,7 @@ import sys
 import types
 import typing
 from functools import lru_cache
-from typing import Any, TypeVar
-
-T = TypeVar("T")
+from typing import Any
 
 
 @lru_cache(maxsize=None)
@@ -31,7 +29,7 @@ def build(cls: Any, data: Any) -> Any:
     if origin is tuple:
         kinds = [arguments[0]] * len(data) if arguments[-1] is Ellipsis else arguments
         return tuple(build(kind, item) for kind, item in zip(kinds, data))
-    if dataclasses.is_dataclass(cls):
+    if isinstance(cls, type) and dataclasses.is_dataclass(cls):
         hints = _fields(cls)
         names = {field.metadata.get("json", field.name): field.name for field in dataclasses.fields(cls)}
         return cls(**{name: build(hints[name], data[key]) for key, name in names.items() if key in data})

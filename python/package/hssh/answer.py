@@ -1,7 +1,7 @@
 """Answers: what maps explain an exploration, and how far that is proved.
 
-The fields are those of the answer's JSON, of which ``docs/answer-format.md`` tells every one: metres and radians, counterclockwise; places,
-visits, travels and scans count from 0, ranks from 1; what is not known is None.
+The fields are those of the answer's JSON, of which ``docs/answer-format.md`` tells every one: metres and radians,
+counterclockwise; places, visits, travels and scans count from 0, ranks from 1; what is not known is None.
 """
 
 from __future__ import annotations
@@ -294,8 +294,9 @@ class Map:
     @property
     def poses(self) -> np.ndarray:
         """ndarray of float64, shape (P, 3): The frame of each place, x, y, θ, in that of the first; NaN where it is not known."""
-        rows = [(np.nan,) * 3 if place.pose is None else (place.pose.x, place.pose.y, place.pose.theta) for place in self.places]
-        return np.array(rows, dtype=float).reshape(-1, 3)
+        unknown = Pose(np.nan, np.nan, np.nan)
+        known = [unknown if place.pose is None else place.pose for place in self.places]
+        return np.array([(pose.x, pose.y, pose.theta) for pose in known], dtype=float).reshape(-1, 3)
 
     @property
     def edges(self) -> np.ndarray:
@@ -312,7 +313,7 @@ class Map:
 
     def to_networkx(self) -> Any:
         """The map as a ``networkx.MultiGraph``: places with their stars and poses, links with their ends. Needs networkx."""
-        import networkx
+        import networkx  # type: ignore[import-untyped]
 
         graph = networkx.MultiGraph()
         for number, place in enumerate(self.places):
@@ -433,7 +434,8 @@ class Maps(Sequence):
 class Answer:
     """What maps explain an exploration or a log, and how far that is proved.
 
-    `hssh.map` gives one, `Mapper.answer` too; ``Answer.from_json`` reads one. In a notebook it shows the verdict, the ranking and the best map.
+    `hssh.map` gives one, `Mapper.answer` too; ``Answer.from_json`` reads one. In a notebook it shows the verdict, the ranking
+    and the best map.
 
     Attributes
     ----------
@@ -486,11 +488,11 @@ class Answer:
         """How a map explains the exploration, travel by travel, replayed by code that shares nothing with the search."""
         return build(Explanation, json.loads(self._mapped.explanation_json(rank)))
 
-    def pose_graph(self, rank: int = 1) -> Any:
+    def pose_graph(self, rank: int = 1) -> _hssh.PoseGraph | None:
         """The pose graph of a map: a pose for each place, a measurement for each measured travel; None without odometry."""
         return self._mapped.pose_graph(rank)
 
-    def scan_graph(self, rank: int = 1) -> Any:
+    def scan_graph(self, rank: int = 1) -> _hssh.PoseGraph | None:
         """Of a log: the pose graph of all its scans, in the frame of the first place of a map; else None."""
         return self._mapped.scan_graph(rank)
 
@@ -498,11 +500,11 @@ class Answer:
         """Of a log: when every scan was taken, shape (N,), and where, shape (N, 3), in the frame of the first place; else None."""
         return self._mapped.trajectory(rank)
 
-    def grid(self, rank: int = 1) -> Any:
+    def grid(self, rank: int = 1) -> _hssh.Grid:
         """Of a log: the grid map of the whole building, in the frame of the first place of a map."""
         return self._mapped.building(rank)
 
-    def exploration(self) -> Any:
+    def exploration(self) -> _hssh.Exploration:
         """What the maps are of: the exploration, or as it must have been if something is taken for misread."""
         return self._mapped.exploration()
 

@@ -10,7 +10,7 @@ class Error(Exception):
 
 
 class ArgumentError(Error, ValueError):
-    """An argument that makes no sense: a shape, a number that is not finite, an index or an option that does not exist."""
+    """An argument that makes no sense: a shape, a number that is not finite, an option that does not exist."""
 
 
 class FileError(Error, OSError):
@@ -55,10 +55,11 @@ class Interrupted(KeyboardInterrupt):
     Attributes
     ----------
     partial : object or None
-        What the call would have returned, as far as it got: an `Answer`, a `Survey`, a `Track`, a `PoseGraphSolution`; None if there is
-        nothing yet.
+        What the call would have returned, as far as it got: an `Answer`, a `Survey`, a `Track`, a `PoseGraphSolution`; None if
+        there is nothing yet.
     """
 
     def __init__(self, partial: Any = None) -> None:
-        super().__init__("interrupted: what is known so far is in `partial`" if partial is not None else "interrupted")
+        known = "" if partial is None else ": what is known so far is in `partial`"
+        super().__init__("interrupted" + known)
         self.partial = partial

@@ -70,7 +70,9 @@ def _options(
     options = {
         "search": {"closed": closed, **_given(method=method, genus=genus, threads=threads)},
         "axioms": axioms,
-        "posterior": _given(score=score, prior=prior, weights=weights, area=area, best=best, rest=rest, likeness=likeness),
+        "posterior": _given(
+            score=score, prior=prior, weights=weights, area=area, best=best, rest=rest, likeness=likeness
+        ),
         "visits": pairs,
         "limits": _given(travels=travels, nodes=nodes, seconds=seconds, mebibytes=mebibytes),
         "places": _given(narrowest=narrowest, shallowest=shallowest, clutter=clutter),
@@ -93,7 +95,9 @@ def _number(value: Any) -> Any:
 _SURVEY_OPTIONS = ("narrowest", "shallowest", "clutter")
 
 
-def survey(log: Any, *, narrowest: float | None = None, shallowest: float | None = None, clutter: float | None = None) -> Any:
+def survey(
+    log: Any, *, narrowest: float | None = None, shallowest: float | None = None, clutter: float | None = None
+) -> _hssh.Survey:
     """Finds the places that a robot visited along a log.
 
     Parameters
@@ -132,15 +136,16 @@ def map(source: Any, **options: Any) -> Answer:
     source : Exploration, Survey, Log, str or os.PathLike
         What to explain; a log is surveyed first; of a file, its content says what it is.
     method : str, optional
-        How to search: "breadth_first" (all maps, level by level), "best_first", "cyclic", "proof" (the best by preference, with a proof),
-        "count" (in constant memory), "posterior" (the most probable maps, with a proof), "posterior_best_first", "posterior_breadth_first"
-        or "posterior_proof". By default "posterior" if every travel has odometry, else "breadth_first".
+        How to search: "breadth_first" (all maps, level by level), "best_first", "cyclic", "proof" (the best by preference, with
+        a proof), "count" (in constant memory), "posterior" (the most probable maps, with a proof), "posterior_best_first",
+        "posterior_breadth_first" or "posterior_proof". By default "posterior" if every travel has odometry, else "breadth_first".
     planar : bool
         Only maps that can be drawn in the plane.
     max_genus, max_places : int, optional
         Only maps of at most that genus, with at most so many places.
     perpendicular, consistent_boundaries : bool
-        No two paths share two places and no three form a triangle; no place is on both sides of a path, or beside a path it lies on.
+        No two paths share two places and no three form a triangle; no place is on both sides of a path, or beside a path that it
+        lies on.
     self_intersection, circular_paths : bool
         Whether a path may meet a place twice, and may return into itself.
     genus : {"first", "last"}, optional
@@ -150,7 +155,8 @@ def map(source: Any, **options: Any) -> Answer:
     same, different : iterable of (int, int)
         Pairs of visits, counted from 0, the start, that are known to be to the same place, or to different ones.
     score, prior : str, optional
-        Of posterior searches: how measurements count ("evidence", "likelihood", "ignored"), and what else ("flat", "simplicity", "choices").
+        Of posterior searches: how measurements count ("evidence", "likelihood", "ignored"), and what else ("flat",
+        "simplicity", "choices").
     weights : (float, float, float), optional
         Of the prior of simplicity.
     area : float, optional
@@ -191,7 +197,8 @@ def map(source: Any, **options: Any) -> Answer:
     SearchError, SurveyError, FileError, FormatError
         If there is no answer.
     Interrupted
-        On Ctrl-C. It is a ``KeyboardInterrupt`` whose ``partial`` is the answer as far as it is known (or the survey, if that was interrupted).
+        On Ctrl-C. It is a ``KeyboardInterrupt`` whose ``partial`` is the answer as far as it is known (or the survey, if that was
+        interrupted).
 
     Examples
     --------
@@ -209,7 +216,8 @@ def map(source: Any, **options: Any) -> Answer:
         source = _hssh.read(source)
     for name in options:
         if name not in _KNOWN:
-            raise TypeError(f"hssh.map() got an unexpected keyword argument '{name}': it takes {', '.join(sorted(_KNOWN))}")
+            known = ", ".join(sorted(_KNOWN))
+            raise TypeError(f"hssh.map() got an unexpected keyword argument '{name}': it takes {known}")
     text = _options(**options)
     if isinstance(source, _hssh.Log):
         source = source._survey(text)
@@ -229,7 +237,7 @@ def _answered(search: Any) -> Answer:
         raise
 
 
-_KNOWN = frozenset(_options.__kwdefaults__)
+_KNOWN = frozenset(_options.__kwdefaults__ or ())
 
 
 class Mapper:
@@ -244,8 +252,8 @@ class Mapper:
     name : str, optional
         What to call it.
     **options
-        Those of `hssh.map`, except for `travels` and `readings`. Without a `method`, the first travel decides: if it is measured, the most
-        probable maps are looked for, and every travel has to be measured.
+        Those of `hssh.map`, except for `travels` and `readings`. Without a `method`, the first travel decides: if it is measured,
+        the most probable maps are looked for, and every travel has to be measured.
 
     Examples
     --------
@@ -332,7 +340,7 @@ class Mapper:
         return Answer(self._online.answer())
 
     @property
-    def exploration(self) -> Any:
+    def exploration(self) -> _hssh.Exploration:
         """Exploration: What was told so far."""
         return self._online.exploration()
 

@@ -121,7 +121,7 @@ class Roadmap:
 
     def to_networkx(self) -> Any:
         """The route graph as a ``networkx.MultiGraph``: edges have their length and line. Needs networkx."""
-        import networkx
+        import networkx  # type: ignore[import-untyped]
 
         graph = networkx.MultiGraph()
         for number, node in enumerate(self.nodes):
@@ -228,7 +228,8 @@ def find_places(
     radius : float
         The radius of the robot: metres.
     narrowest, shallowest, clutter : float, optional
-        Metres: passages narrower are closed; ways that lead on for less are no ways out; obstacles no larger are furniture, which parts no rooms.
+        Metres: passages narrower are closed; ways that lead on for less are no ways out; obstacles no larger are furniture, which
+        parts no rooms.
     unknown_is_free : bool
         Whether unknown cells can be driven; else they are walls.
     detail : bool
@@ -279,4 +280,5 @@ def place_at(
     GridPlace
     """
     grid = _hssh.read_grid(grid) if isinstance(grid, (str, os.PathLike)) else grid
-    return build(GridPlace, json.loads(_hssh.place_around(grid, x, y, narrowest, shallowest, clutter, unknown_is_free)))
+    found = _hssh.place_around(grid, x, y, narrowest, shallowest, clutter, unknown_is_free)
+    return build(GridPlace, json.loads(found))

@@ -4,9 +4,10 @@ use std::fs::File;
 use std::io::{self, BufRead, BufReader, Cursor, Read};
 use std::path::{Path, PathBuf};
 
+use flate2::bufread::MultiGzDecoder;
+
 use super::error::FileError;
 use crate::kind::FileKind;
-use flate2::bufread::MultiGzDecoder;
 
 /// So much of a file is looked at to say what it is.
 const LOOKED_AT: u64 = 1 << 16;
