@@ -89,6 +89,7 @@ pub(crate) fn read_log(
             FileKind::LaserLog(_)
                 | FileKind::Recording(_)
                 | FileKind::Table
+                | FileKind::JsonLines
                 | FileKind::Text
                 | FileKind::Empty
         );
@@ -143,7 +144,7 @@ pub(crate) fn read_grid(py: Python<'_>, path: PathBuf, resolution: Option<f64>) 
 pub(crate) fn read(py: Python<'_>, path: PathBuf) -> PyResult<Py<PyAny>> {
     let kind = open(&path)?.kind().clone();
     Ok(match kind {
-        FileKind::LaserLog(_) | FileKind::Recording(_) | FileKind::Table => {
+        FileKind::LaserLog(_) | FileKind::Recording(_) | FileKind::Table | FileKind::JsonLines => {
             Py::new(py, read_log(py, path, None, None, None, None, None)?)?.into_any()
         }
         FileKind::PoseGraph(_) => Py::new(py, read_pose_graph(path)?)?.into_any(),

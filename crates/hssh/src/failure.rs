@@ -86,6 +86,12 @@ pub(crate) enum Failure {
     Grid(#[from] hssh_local::MapError),
     #[error("the map of the building is too large for a grid: {0}")]
     TooLarge(#[from] hssh_local::LatticeError),
+    #[error(
+        "cannot serve the page on port {port} of this machine: {error}\nhelp: another program may use it: give another --port, or 0 for any that is free"
+    )]
+    Port { port: u16, error: std::io::Error },
+    #[error("no scan came that can be used")]
+    NothingCame,
     #[error("{}: {error}", file.display())]
     Survey { file: PathBuf, error: Box<hssh_local::SurveyError> },
     #[error("the track is no pose graph: {0}")]

@@ -7,6 +7,7 @@ mod arguments;
 mod command;
 mod failure;
 mod input;
+mod live;
 mod output;
 mod progress;
 mod terminal;
@@ -27,6 +28,7 @@ fn main() -> ExitCode {
     }
     let done = match arguments.command {
         Command::Map(options) => command::map::run(&options),
+        Command::Live(options) => command::live::run(&options),
         Command::Check(options) => command::check::run(&options),
         Command::Explain(options) => command::explain::run(&options),
         Command::Graph(options) => command::graph::run(&options),

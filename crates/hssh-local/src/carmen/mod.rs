@@ -14,6 +14,7 @@
 
 mod error;
 mod facing;
+mod growing;
 mod jump;
 mod limit;
 mod log;
@@ -24,6 +25,7 @@ mod reader;
 mod view;
 
 pub use error::{LogError, LogWarning, MessageProblem};
+pub use growing::GrowingLog;
 pub use log::{LaserLog, LoggedScan};
 pub use message::{LaserKind, LaserMessage, LaserView, Message};
 pub use mount::LaserMount;

@@ -8,7 +8,7 @@ use super::error::{LogError, LogWarning, MessageProblem};
 use super::message::{LaserKind, LaserMessage, LaserView, Message};
 
 /// All messages of a log.
-#[derive(Default)]
+#[derive(Clone, Default)]
 pub(crate) struct RawLog {
     /// Whether it has lines.
     pub(crate) is_text: bool,
@@ -23,6 +23,7 @@ pub(crate) struct RawLog {
 }
 
 /// A scan as its message tells it.
+#[derive(Clone)]
 pub(crate) struct RawScan {
     pub(crate) kind: LaserKind,
     /// How its laser looks, if the message says so.

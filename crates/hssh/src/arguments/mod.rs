@@ -30,6 +30,8 @@ pub(crate) struct Arguments {
 pub(crate) enum Command {
     /// Find the maps that explain an exploration, print the best and draw them.
     Map(Box<MapArguments>),
+    /// Map while the robot drives: what comes from it through a pipe, shown on a page of this machine.
+    Live(Box<LiveArguments>),
     /// Read an exploration and say what is in it, or what is wrong with it.
     Check(CheckArguments),
     /// Tell step by step how the best map explains an exploration.
@@ -115,6 +117,21 @@ pub(crate) struct MapArguments {
     pub(crate) places: PlaceArguments,
     #[command(flatten)]
     pub(crate) laser: LaserArguments,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct LiveArguments {
+    #[command(flatten)]
+    pub(crate) map: MapArguments,
+    /// Serve the page on this port of this machine; 0 takes one that is free.
+    #[arg(long, value_name = "PORT", default_value_t = 0)]
+    pub(crate) port: u16,
+    /// Serve the page until Ctrl-C, also when nothing comes any more.
+    #[arg(long)]
+    pub(crate) stay: bool,
+    /// Make the map anew when the robot has gone so many metres since the last one.
+    #[arg(long, value_name = "METRES", default_value_t = 2.0, value_parser = positive)]
+    pub(crate) every: f64,
 }
 
 #[derive(Debug, Args)]

@@ -5,6 +5,7 @@ pub(crate) mod explain;
 pub(crate) mod explore;
 mod floor;
 pub(crate) mod graph;
+pub(crate) mod live;
 pub(crate) mod map;
 pub(crate) mod simulate;
 mod stages;

@@ -30,7 +30,7 @@ pub(crate) fn run(options: &StarsArguments) -> Result<Status, Failure> {
     let source = Source::open(&options.map)?;
     let is_yaml = options.map.extension().is_some_and(|ending| ending == "yaml" || ending == "yml");
     let grid = match source.kind() {
-        FileKind::LaserLog(_) | FileKind::Recording(_) | FileKind::Table => {
+        FileKind::LaserLog(_) | FileKind::Recording(_) | FileKind::Table | FileKind::JsonLines => {
             refuse_region_options(options, "a laser log")?;
             return along(options, source);
         }

@@ -75,6 +75,14 @@ pub enum FileError {
         /// What is wrong with it.
         error: Box<hssh_io::TableError>,
     },
+    /// It is no scans as lines of JSON.
+    #[error("cannot use {}: {error}", file.display())]
+    JsonLines {
+        /// The file.
+        file: PathBuf,
+        /// What is wrong with it.
+        error: Box<hssh_io::JsonLinesError>,
+    },
     /// It is no bag with scans.
     #[cfg(feature = "bags")]
     #[error("cannot use {}: {error}\nhelp: `hssh check` says what is in a bag", file.display())]

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use hssh_io::{TableOptions, read_table};
+use hssh_io::{KnownLaser, read_json_lines, read_table};
 use hssh_local::LaserLog;
 
 use super::error::FileError;
@@ -54,10 +54,14 @@ pub fn read_log(
         FileKind::Recording(_) => bag::read_log(file, source, laser, topics),
         kind if topics.is_given() => Err(FileError::NoTopics { file: file.to_owned(), kind: kind.clone() }),
         FileKind::Table => {
-            let options = TableOptions { view: mount.view, laser: mount.pose };
-            read_table(source.into_content(), &options)
+            read_table(source.into_content(), &KnownLaser { view: mount.view, pose: mount.pose })
                 .map(alone)
                 .map_err(|error| FileError::Table { file: file.to_owned(), error: Box::new(error) })
+        }
+        FileKind::JsonLines => {
+            read_json_lines(source.into_content(), &KnownLaser { view: mount.view, pose: mount.pose })
+                .map(alone)
+                .map_err(|error| FileError::JsonLines { file: file.to_owned(), error: Box::new(error) })
         }
         _ => LaserLog::read_with(source.into_content(), &mount)
             .map(alone)
@@ -66,7 +70,7 @@ pub fn read_log(
 }
 
 #[cfg(feature = "bags")]
-pub use bag::read_bag_account;
+pub use bag::{read_bag_account, recording_options};
 
 #[cfg(feature = "bags")]
 mod bag {
@@ -85,7 +89,7 @@ mod bag {
         if laser.view.is_some() {
             return Err(FileError::ViewOfBag);
         }
-        let options = options(laser, topics);
+        let options = recording_options(laser, topics);
         let read = in_file(file, source, |path| read_bag(path, &options))?;
         Ok(ReadLog { log: read.log, used: read.used })
     }
@@ -99,7 +103,7 @@ mod bag {
         source: Source,
         topics: &TopicChoice,
     ) -> Result<BagAccount, FileError> {
-        let options = options(&LaserChoice::default(), topics);
+        let options = recording_options(&LaserChoice::default(), topics);
         in_file(file, source, |path| bag_account(path, &options))
     }
 
@@ -117,7 +121,9 @@ mod bag {
         with_file(source.into_content(), read).map_err(unpacked)?.map_err(failed)
     }
 
-    fn options(laser: &LaserChoice, topics: &TopicChoice) -> RecordingOptions {
+    /// What is known and asked for of a bag.
+    #[must_use]
+    pub fn recording_options(laser: &LaserChoice, topics: &TopicChoice) -> RecordingOptions {
         let TopicChoice { scan, odometry, base_frame } = topics.clone();
         RecordingOptions { scan, odometry, base_frame, laser: laser.mount().pose }
     }

@@ -12,9 +12,9 @@ use hssh_metrics::{GraphFile, read_pose_graph};
 use crate::kind::FileKind;
 
 pub use error::FileError;
-#[cfg(feature = "bags")]
-pub use log::read_bag_account;
 pub use log::{ReadLog, TopicChoice, read_log};
+#[cfg(feature = "bags")]
+pub use log::{read_bag_account, recording_options};
 pub use source::Source;
 
 /// The exploration in a file that was opened.

@@ -29,7 +29,7 @@ pub(crate) fn read_input(
     let name = file.display().to_string();
     let source = Source::open(file)?;
     match source.kind() {
-        FileKind::LaserLog(_) | FileKind::Recording(_) | FileKind::Table => {
+        FileKind::LaserLog(_) | FileKind::Recording(_) | FileKind::Table | FileKind::JsonLines => {
             let surveyed = surveyed(file, source, options, topics)?;
             Input::surveyed(name, surveyed).map_err(|error| failed(file, error))
         }
@@ -61,6 +61,7 @@ fn open_log(file: &Path) -> Result<Source, Failure> {
         FileKind::LaserLog(_)
         | FileKind::Recording(_)
         | FileKind::Table
+        | FileKind::JsonLines
         | FileKind::Text
         | FileKind::Empty => Ok(source),
         _ => Err(source.unfit("a laser log").into()),
@@ -103,7 +104,7 @@ pub(crate) fn read_tracked(
 }
 
 /// Shows on standard error how much is done.
-fn progress_bar(length: u64) -> ProgressBar {
+pub(crate) fn progress_bar(length: u64) -> ProgressBar {
     let bar = ProgressBar::with_draw_target(Some(length), ProgressDrawTarget::stderr_with_hz(10));
     if let Ok(style) = ProgressStyle::with_template("{spinner} {msg} {bar:30} {percent}%  {elapsed}") {
         bar.set_style(style);

@@ -6,6 +6,7 @@ mod common;
 mod faults;
 mod graph;
 mod kinds;
+mod live;
 mod log;
 mod outputs;
 mod program;

@@ -13,6 +13,13 @@ use crate::output::{Written, print, write_file};
 use crate::progress::watched;
 
 pub(crate) fn run(arguments: &MapArguments) -> Result<Status, Failure> {
+    let options = checked_options(arguments)?;
+    let input = read_input(&arguments.file, &options, &arguments.laser.topics)?;
+    answer(arguments, &input, &options, |_| ())
+}
+
+/// The options, if what is asked for can be done with them.
+pub(crate) fn checked_options(arguments: &MapArguments) -> Result<MappingOptions, Failure> {
     let options = arguments.options()?;
     if options.search.method == Some(SearchMethod::Count) && draw::is_asked(arguments) {
         let help = "counting keeps no maps to draw: choose another --search for pictures";
@@ -26,7 +33,16 @@ pub(crate) fn run(arguments: &MapArguments) -> Result<Status, Failure> {
             "--rank {rank} is not among the {listed} maps that are listed: add --top {rank}, or --all"
         )));
     }
-    let input = read_input(&arguments.file, &options, &arguments.laser.topics)?;
+    Ok(options)
+}
+
+/// Maps an input, prints the answer and writes what was asked for; `show` is given it before.
+pub(crate) fn answer(
+    arguments: &MapArguments,
+    input: &Input,
+    options: &MappingOptions,
+    show: impl FnOnce(&Mapped),
+) -> Result<Status, Failure> {
     if arguments.strict {
         refuse_partial(&arguments.file, input.as_surveyed())?;
     }
@@ -35,7 +51,8 @@ pub(crate) fn run(arguments: &MapArguments) -> Result<Status, Failure> {
         (Some(surveyed), Some(folder)) => draw_survey(&surveyed.log, &surveyed.survey, folder)?,
         (Some(_), None) => {}
     }
-    let mapped = searched(&input, &options)?;
+    let mapped = searched(input, options)?;
+    show(&mapped);
     // An answer that took long is printed all the same.
     let no_such_rank = arguments
         .rank
@@ -54,7 +71,7 @@ pub(crate) fn run(arguments: &MapArguments) -> Result<Status, Failure> {
     })?;
     let mut written = Written::default();
     if let Some(file) = &arguments.certificate {
-        let certificate = mapped.certificate(&input).ok_or(Failure::NothingProved);
+        let certificate = mapped.certificate(input).ok_or(Failure::NothingProved);
         written.note(certificate.and_then(|certificate| write_file(file, &certificate)));
     }
     if let (Some(file), Some(exploration)) = (&arguments.corrected, mapped.corrected()) {
@@ -63,7 +80,7 @@ pub(crate) fn run(arguments: &MapArguments) -> Result<Status, Failure> {
     if no_such_rank.is_some() {
         return Ok(Status::Refused);
     }
-    draw::draw(arguments, &input, &mapped, &mut written)?;
+    draw::draw(arguments, input, &mapped, &mut written)?;
     written.done()?;
     Ok(Status::of(&mapped.answer))
 }
