@@ -6,7 +6,7 @@ use std::time::Instant;
 
 use xshell::{Shell, cmd};
 
-use crate::{page, root, tidy};
+use crate::{page, python, root, tidy};
 
 /// `cargo xtask ci`.
 pub(crate) fn run() -> Result<(), Box<dyn Error>> {
@@ -19,11 +19,13 @@ pub(crate) fn run() -> Result<(), Box<dyn Error>> {
         let lean = ["--package", "hssh", "--package", "hssh-metrics", "--no-default-features"];
         Ok(cmd!(shell, "cargo clippy {lean...} --all-targets -- -D warnings").run()?)
     })?;
+    step("lints of the Python package", || python::lint(&shell))?;
     // The same random cases in every run: a change is refused for what it breaks, not for a case that was broken before.
     let tests = cmd!(shell, "cargo test --workspace").env("PROPTEST_RNG_SEED", "2005");
     step("tests", || Ok(tests.run()?))?;
     step("page", || page::run(None))?;
     step("examples", examples)?;
+    step("python", || python::test(&shell))?;
     step("documentation", || {
         Ok(cmd!(shell, "cargo doc --workspace --no-deps").env("RUSTDOCFLAGS", "-Dwarnings").run()?)
     })?;
@@ -62,6 +64,14 @@ fn examples() -> Result<(), Box<dyn Error>> {
         }
     }
     Ok(())
+}
+
+/// `cargo xtask python`.
+pub(crate) fn python() -> Result<(), Box<dyn Error>> {
+    let shell = Shell::new()?;
+    shell.change_dir(root::root());
+    step("lints of the Python package", || python::lint(&shell))?;
+    step("python", || python::test(&shell))
 }
 
 /// Runs one step under its name, and says how long it took.

@@ -41,8 +41,8 @@ mod skeleton;
 mod survey;
 
 pub use carmen::{
-    GrowingLog, LaserKind, LaserLog, LaserMessage, LaserMount, LaserView, LogError, LogPosition, LogReader, LogWarning,
-    LoggedScan, Message, MessageProblem,
+    GrowingLog, LaserKind, LaserLog, LaserMessage, LaserMount, LaserView, LogError, LogPosition, LogReader,
+    LogWarning, LoggedScan, Message, MessageProblem,
 };
 pub use closing::{ClosedTrack, ClosingError, ClosingOptions, Closure, close_loops};
 pub use distance::DistanceField;

@@ -3,6 +3,7 @@
 use std::path::PathBuf;
 
 use clap::Args;
+use hssh::file::TopicChoice;
 use hssh::pipeline::{LaserChoice, PlaceChoice};
 use hssh_local::{PlaceOptions, RegionOptions, RoadmapOptions, UnknownSpace};
 
@@ -174,9 +175,10 @@ pub(crate) struct TopicArguments {
 }
 
 impl TopicArguments {
-    /// Whether anything is chosen.
-    pub(crate) fn is_given(&self) -> bool {
-        self.scan.is_some() || self.odom.is_some() || self.base_frame.is_some()
+    /// The choice that they make.
+    pub(crate) fn choice(&self) -> TopicChoice {
+        let TopicArguments { scan, odom, base_frame } = self.clone();
+        TopicChoice { scan, odometry: odom, base_frame }
     }
 }
 

@@ -7,10 +7,12 @@ mod search;
 
 use std::path::PathBuf;
 
-use clap::{Args, Parser, Subcommand, ValueEnum};
+use clap::{Args, Parser, Subcommand};
+use hssh::graph::{GraphOptions, KernelChoice, MethodChoice, StartChoice, WrongClosures};
 use hssh::pipeline::MappingOptions;
 
 use crate::failure::Failure;
+use crate::progress::is_interrupted;
 
 pub(crate) use export::{ExportArguments, FilesArguments};
 pub(crate) use local::{
@@ -225,11 +227,11 @@ pub(crate) struct GraphArguments {
     pub(crate) strict: bool,
 
     /// How to minimize χ².
-    #[arg(long, value_enum, default_value_t = MethodOption::Safeguarded, value_name = "HOW", help_heading = "Solver")]
-    pub(crate) method: MethodOption,
+    #[arg(long, value_enum, default_value_t = MethodChoice::Safeguarded, value_name = "HOW", help_heading = "Solver")]
+    pub(crate) method: MethodChoice,
     /// Which poses to start from.
-    #[arg(long, value_enum, default_value_t = StartOption::Best, value_name = "WHERE", help_heading = "Solver")]
-    pub(crate) start: StartOption,
+    #[arg(long, value_enum, default_value_t = StartChoice::Best, value_name = "WHERE", help_heading = "Solver")]
+    pub(crate) start: StartChoice,
     /// Stop after N linear systems (with relaxation: sweeps; with --robust: rounds as well).
     #[arg(long, value_name = "N", help_heading = "Solver")]
     pub(crate) max_iterations: Option<usize>,
@@ -239,7 +241,7 @@ pub(crate) struct GraphArguments {
 
     /// Let closures count the less the worse they fit.
     #[arg(long, value_enum, value_name = "KERNEL", help_heading = "Wrong closures")]
-    pub(crate) robust: Option<KernelOption>,
+    pub(crate) robust: Option<KernelChoice>,
     /// With --robust: from how many standard deviations on.
     #[arg(long, value_name = "N", default_value_t = 3.0, value_parser = positive, requires = "robust", help_heading = "Wrong closures")]
     pub(crate) deviations: f64,
@@ -265,46 +267,6 @@ pub(crate) struct GraphArguments {
     pub(crate) dot: Option<PathBuf>,
 }
 
-/// How χ² is minimized.
-#[derive(Clone, Copy, PartialEq, Eq, Debug, ValueEnum)]
-pub(crate) enum MethodOption {
-    /// One linear system, as in the thesis's appendix B.
-    LinearizeOnce,
-    /// Full steps, whether or not χ² falls.
-    GaussNewton,
-    /// Full steps while χ² falls, then damped ones.
-    LevenbergMarquardt,
-    /// Gauss–Newton, guarded by Levenberg–Marquardt.
-    Safeguarded,
-    /// One pose after the other.
-    Relaxation,
-}
-
-/// Where a descent begins.
-#[derive(Clone, Copy, PartialEq, Eq, Debug, ValueEnum)]
-pub(crate) enum StartOption {
-    /// Chordal poses; the file's as well, if they fit better than what was found. With --robust and --graduated
-    /// dead reckoning, which wrong closures cannot spoil.
-    Best,
-    /// Chordal relaxation: from the edges alone.
-    Chordal,
-    /// The poses in the file.
-    File,
-    /// Dead reckoning.
-    Odometry,
-}
-
-/// How a measurement that fits badly loses its weight.
-#[derive(Clone, Copy, PartialEq, Eq, Debug, ValueEnum)]
-pub(crate) enum KernelOption {
-    /// It pulls with a constant force.
-    Huber,
-    /// It pulls the less the worse it fits.
-    Cauchy,
-    /// Dynamic covariance scaling: in the end it is switched off.
-    Dcs,
-}
-
 pub(crate) fn positive(text: &str) -> Result<f64, String> {
     let number: Option<f64> = text.parse().ok();
     let is_right = |number: &f64| *number > 0.0 && number.is_finite();
@@ -315,6 +277,24 @@ pub(crate) fn not_negative(text: &str) -> Result<f64, String> {
     let number: Option<f64> = text.parse().ok();
     let is_right = |number: &f64| *number >= 0.0 && number.is_finite();
     number.filter(is_right).ok_or_else(|| "write a number that is not negative, like 0.5".to_owned())
+}
+
+impl GraphArguments {
+    /// What is asked for.
+    pub(crate) fn options(&self) -> GraphOptions {
+        GraphOptions {
+            method: self.method,
+            start: self.start,
+            max_iterations: self.max_iterations,
+            tolerance: self.tolerance,
+            wrong: match self.robust {
+                Some(kernel) => WrongClosures::Weighed { kernel, deviations: self.deviations },
+                None if self.graduated => WrongClosures::Refused { threshold: self.threshold },
+                None => WrongClosures::None,
+            },
+            interrupted: is_interrupted,
+        }
+    }
 }
 
 impl MapArguments {

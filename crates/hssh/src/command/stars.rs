@@ -39,7 +39,7 @@ pub(crate) fn run(options: &StarsArguments) -> Result<Status, Failure> {
         FileKind::MapDescription => read(&options.map, true, options.resolution)?,
         FileKind::Text | FileKind::Empty if is_yaml => read(&options.map, true, options.resolution)?,
         FileKind::Image(_) => read(&options.map, false, options.resolution)?,
-        _ => return Err(source.unfit("a grid map (YAML or image) or a laser log")),
+        _ => return Err(source.unfit("a grid map (YAML or image) or a laser log").into()),
     };
     let parameters = options.parameters();
     match options.at {

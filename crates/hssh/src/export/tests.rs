@@ -69,7 +69,7 @@ fn place() -> impl Strategy<Value = AnsweredPlace> {
             }
         };
         let ends = (0..).zip(["0+", "1+", "0-", "1-"]).map(end).collect();
-        AnsweredPlace { star, ends, pose: Some(PlacedPose { x, y, theta, covariance: None }) }
+        AnsweredPlace { star, ends, region: None, pose: Some(PlacedPose { x, y, theta, covariance: None }) }
     })
 }
 

@@ -34,13 +34,14 @@ use hssh_causal::Exploration;
 use hssh_draw::SearchTree;
 use hssh_local::{OccupancyGrid, PerceptionModel, building_map, resemblance};
 use hssh_metrics::{Pose, PoseGraph};
-use hssh_search::Tree;
+use hssh_search::{Mapper, Tree};
 use hssh_topology::{Isomorphism, Position};
 
 use crate::answer::{Answer, AnswerWarning, AnsweredMap, ReadingAccount, Spot, Verdict, WarningKind};
 use assemble::{Assembly, records};
 use building::Building;
-use engine::{Likeness, Searched, Task, Telling};
+use engine::{Likeness, Telling};
+pub(crate) use engine::{Searched, Task};
 
 /// More threads than that for each core are of no use.
 const THREADS_PER_CORE: usize = 4;
@@ -112,10 +113,21 @@ pub fn map(input: &Input, options: &MappingOptions, monitor: &Arc<Monitor>) -> R
         return Ok(mapped);
     }
     let likeness = input.surveyed.as_ref().map(|surveyed| surveyed.likeness(options.posterior.likeness));
-    let task = Task { exploration: &exploration, options: &options, method, likeness, monitor };
-    let searched = task.search()?;
+    let task =
+        Task { exploration: &exploration, options: &options, method, likeness, monitor, is_online: false };
+    Ok(answered(input, &exploration, &options, task.search()?, warnings))
+}
 
-    let (maps, placed) = told(input, &searched, &exploration, &mut warnings);
+/// The answer that a search gives, of an input of which the travels of `exploration` were to be explained.
+pub(crate) fn answered(
+    input: &Input,
+    exploration: &Exploration,
+    options: &MappingOptions,
+    searched: Searched,
+    mut warnings: Vec<AnswerWarning>,
+) -> Mapped {
+    let considered = exploration.travels().len();
+    let (maps, placed) = told(input, &searched, exploration, &mut warnings);
     let account = input.account(considered, searched.explained as u64);
     let mut certificate = searched.certificate.clone();
     if let Some(evidence) = &account.evidence {
@@ -147,7 +159,7 @@ pub fn map(input: &Input, options: &MappingOptions, monitor: &Arc<Monitor>) -> R
     if let (Some(building), Some(surveyed)) = (&building, &input.surveyed) {
         building.tell(surveyed, &mut answer);
     }
-    Ok(Mapped { answer, searched, placed, building, corrected: None })
+    Mapped { answer, searched, placed, building, corrected: None }
 }
 
 /// The maps of the ranking, placed where measured travels allow it.
@@ -220,7 +232,7 @@ fn useful_threads(asked: usize, warnings: &mut Vec<AnswerWarning>) -> usize {
 
 impl MappingOptions {
     /// The method for an exploration: what was chosen, or what its measurements allow.
-    fn method_for(&self, exploration: &Exploration) -> Result<SearchMethod, PipelineError> {
+    pub(crate) fn method_for(&self, exploration: &Exploration) -> Result<SearchMethod, PipelineError> {
         let is_measured = || exploration.travels().iter().all(|travel| travel.odometry.is_some());
         let usual = if exploration.travels().is_empty() || self.search.genus.is_some() || !is_measured() {
             SearchMethod::BreadthFirst
@@ -314,6 +326,11 @@ impl Mapped {
         self.corrected.as_ref()
     }
 
+    /// The answer, and the mapper to go on with.
+    pub(crate) fn into_answer_and_mapper(self) -> (Answer, Option<Box<Mapper>>) {
+        (self.answer, self.searched.into_mapper())
+    }
+
     /// The maps are those of an account of what was misread: no more probable than that.
     fn rest_on(&mut self, account: ReadingAccount, warnings: Vec<AnswerWarning>) {
         for map in &mut self.answer.maps {
@@ -355,7 +372,8 @@ impl Mapped {
         let method = options.method_for(&exploration)?;
         let surveyed = input.surveyed.as_ref();
         let likeness = surveyed.map(|surveyed| surveyed.likeness(options.posterior.likeness));
-        let task = Task { exploration: &exploration, options: &options, method, likeness, monitor };
+        let task =
+            Task { exploration: &exploration, options: &options, method, likeness, monitor, is_online: true };
         let mut history = task.history(most_nodes)?;
         // As in the answer, what the places of a log rest on is a factor.
         let evidence = surveyed.map_or(1.0, |surveyed| surveyed.evidence().probability);

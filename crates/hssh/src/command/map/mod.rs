@@ -6,8 +6,8 @@ use hssh::answer::Listing;
 use hssh::pipeline::{Input, Mapped, MappingOptions, SearchMethod, SurveyedLog, map};
 
 use crate::arguments::MapArguments;
-use crate::command::page;
 use crate::command::export::write_maps;
+use crate::command::page;
 use crate::command::stages::draw_survey;
 use crate::failure::{Failure, Status};
 use crate::input::{read_input, refuse_partial, warn};
@@ -113,7 +113,7 @@ fn refuse_what_needs_a_log(arguments: &MapArguments) -> Result<(), Failure> {
     if is_asked
         || !arguments.places.choice().is_usual()
         || !laser.choice().is_usual()
-        || laser.topics.is_given()
+        || laser.topics.choice().is_given()
     {
         let help = "--grid, --trajectory, --likeness, --debug-dir, --with-trajectory, --fov, --laser-pose, --scan, --odom, --base-frame and what counts as a place need a laser log: an exploration has no scans";
         return Err(Failure::Usage(help.to_owned()));
