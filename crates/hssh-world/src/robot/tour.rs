@@ -119,15 +119,13 @@ mod tests {
 
     #[test]
     fn a_tour_comes_to_every_place_and_back_as_its_log_tells() {
-        let plan = floor_plan(&grid(2, 2, 8.0).unwrap(), 2.0, 0.1).unwrap();
+        let plan = floor_plan(&grid(3, 3, 8.0).unwrap(), 2.0, 0.1).unwrap();
         let map = RegionMap::new(&plan, &RegionOptions::default()).unwrap();
         let roadmap = Roadmap::new(&plan, &map, &RoadmapOptions::default());
         let line = round_trip(&roadmap);
         assert_eq!(line.first(), line.last());
-        let passes = |[x, y]: [f64; 2]| {
-            line.windows(2).any(|pair| pair.iter().any(|&[a, b]| (a - x).hypot(b - y) < 1e-9))
-        };
-        assert!(roadmap.places.len() > 1 && roadmap.places.iter().all(|place| passes(place.center)));
+        let passes = |[x, y]: [f64; 2]| line.iter().any(|&[a, b]| (a - x).hypot(b - y) < 1e-9);
+        assert!(roadmap.places.iter().all(|place| passes(place.center)));
         let options = RobotOptions::default();
         let tour = Tour::along(&line, &plan, &options.with_noise(0.0), 1);
         let start = tour.moments[0].pose;
