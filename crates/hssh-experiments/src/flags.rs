@@ -38,7 +38,7 @@ xflags::xflags! {
             /// Print JSON instead of tables.
             optional --json
         }
-        /// Times the mapper: `speed`, `faces` or `proof`, all three if not given; or pose graphs: `graphs`, `closures`, `wrong-closures`.
+        /// Times the mapper: `speed`, `faces` or `proof`, all three if not given; `long` explorations; or pose graphs: `graphs`, `closures`, `wrong-closures`.
         cmd bench {
             /// Which one.
             optional name: String
@@ -49,7 +49,7 @@ xflags::xflags! {
             /// Seconds that one search with proof may take; 60 if not given.
             optional --seconds count: u64
         }
-        /// Runs one search of `bench speed` and prints its cost as JSON; `bench` starts this itself.
+        /// Runs one search of `bench speed` or `bench long` and prints its cost as JSON; `bench` starts this itself.
         cmd measure {
             /// Which search.
             required name: String

@@ -47,7 +47,7 @@ fn run(command: ExperimentsCmd) -> Result<(), Box<dyn Error>> {
         ExperimentsCmd::Bench(flags) => bench::run(&flags),
         ExperimentsCmd::Peers(flags) => peers::run(&flags),
         ExperimentsCmd::WrongClosures(flags) => wrong_closures::run(&flags),
-        ExperimentsCmd::Measure(flags) => bench::speed::measure(&flags),
+        ExperimentsCmd::Measure(flags) => bench::measure(&flags),
         ExperimentsCmd::Aces(flags) => {
             let out = flags.out.unwrap_or_else(|| root::fixtures().join("aces.ron"));
             println!("{}", aces::make(&flags.data, &out)?);

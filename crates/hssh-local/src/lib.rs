@@ -41,12 +41,12 @@ mod skeleton;
 mod survey;
 
 pub use carmen::{
-    GrowingLog, LaserKind, LaserLog, LaserMessage, LaserMount, LaserView, LogError, LogReader, LogWarning,
-    LoggedScan, Message, MessageProblem,
+    GrowingLog, LaserKind, LaserLog, LaserMessage, LaserMount, LaserView, LogError, LogPosition, LogReader,
+    LogWarning, LoggedScan, Message, MessageProblem,
 };
 pub use closing::{ClosedTrack, ClosingError, ClosingOptions, Closure, close_loops};
 pub use distance::DistanceField;
-pub use global_map::{building_map, global_map, global_poses, mean_wall_distance, visit_frames};
+pub use global_map::{Stay, building_map, global_map, global_poses, mean_wall_distance, stays, visit_frames};
 pub use grid::{Cell, CellLine, GridError, Lattice, LatticeError, Occupancy, OccupancyGrid};
 pub use local_map::{LocalMap, LocalMapOptions};
 pub use map_server::{
@@ -65,12 +65,12 @@ pub use progress::Reply;
 pub use recording::{RecordedScan, Recording, TimedPose};
 pub use region::{
     CutOptions, DoorwayOptions, KindOptions, Outline, Passage, Region, RegionKind, RegionMap, RegionNumber,
-    RegionOptions,
+    RegionOptions, without_rims,
 };
 pub use roadmap::{
     Connection, RegionPlace, RoadNode, RoadNodeKind, RoadNodeNumber, Roadmap, RoadmapOptions, Way,
 };
-pub use route::RouteOptions;
+pub use route::{RouteOptions, driven_line};
 pub use scan::Scan;
 pub use skeleton::{
     AxisPoint, EdgeEnd, FreeSpace, Skeleton, SkeletonEdge, SkeletonEdgeId, SkeletonNode, SkeletonNodeId,

@@ -9,7 +9,7 @@ use crate::constraints::{ConstraintError, VisitConstraints};
 use crate::crew::ThreadsError;
 use crate::limits::{Limits, Monitor};
 use crate::order::{Goal, Order, Proving};
-use crate::posterior::{Appearance, ModelError, PosteriorModel};
+use crate::posterior::{Appearance, MapPrior, ModelError, PosteriorModel};
 use crate::visit::MeasurementError;
 
 /// What makes one map better than another.
@@ -19,6 +19,18 @@ pub enum Objective {
     Preference(Preference),
     /// Posterior probability (chapter 4). Every travel has to be measured, unless the model ignores measurements.
     Posterior(PosteriorModel),
+}
+
+impl Objective {
+    /// Whether a search for it asks for boundary relations at every step.
+    pub(crate) fn asks_for_boundaries(self) -> bool {
+        match self {
+            Objective::Preference(_) => true,
+            Objective::Posterior(PosteriorModel { prior, .. }) => {
+                matches!(prior, MapPrior::Simplicity(weights) if weights.c1 > 0.0)
+            }
+        }
+    }
 }
 
 impl Default for Objective {

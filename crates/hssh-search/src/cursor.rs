@@ -3,7 +3,10 @@
 use hssh_topology::{Hypothesis, Position};
 
 use crate::experience::Experience;
+use crate::legs::Legs;
+use crate::measured::Measured;
 use crate::tree::{MapNumber, NodeId, Tree};
+use crate::visited::Visited;
 
 /// A hypothesis that can be moved from node to node of a tree: it goes up and down the tree of maps
 /// by taking back and applying differences, so that no map is ever copied.
@@ -12,13 +15,18 @@ pub struct Cursor {
     hypothesis: Hypothesis,
     at: MapNumber,
     way_down: Vec<MapNumber>,
+    /// Where it was last asked for visits.
+    visited: Visited,
+    /// The first travels of that branch.
+    legs: Legs,
 }
 
 impl Cursor {
     /// A cursor at the root.
     #[must_use]
     pub fn new(experience: &Experience) -> Self {
-        Cursor { hypothesis: experience.root(), at: MapNumber::ROOT, way_down: Vec::new() }
+        let (visited, legs) = (Visited::default(), Legs::default());
+        Cursor { hypothesis: experience.root(), at: MapNumber::ROOT, way_down: Vec::new(), visited, legs }
     }
 
     /// Moves to a node; the hypothesis there. Whatever was done to the hypothesis after the last
@@ -38,12 +46,28 @@ impl Cursor {
     /// Moves to a node; where the robot was there, after each travel that it explains, the start first.
     #[must_use]
     pub fn visits(&mut self, node: NodeId, tree: &Tree, experience: &Experience) -> Vec<Position> {
-        let hypothesis = self.go_to(node, tree, experience);
-        let branch = tree.branch(node);
-        let arrivals = branch.iter().filter_map(|&node| tree.arrival(node));
-        let came = arrivals.zip(&experience.observations);
-        let visits = came.map(|(arrival, observation)| hypothesis.position_at(arrival, observation.entry));
-        std::iter::once(experience.root_position()).chain(visits).collect()
+        self.visited(node, tree, experience).positions().to_vec()
+    }
+
+    /// The same, carried along.
+    pub(crate) fn visited(&mut self, node: NodeId, tree: &Tree, experience: &Experience) -> &Visited {
+        self.go_to(node, tree, experience);
+        let shared = self.visited.go_to(node, tree, &self.hypothesis, experience);
+        self.legs.keep(shared.saturating_sub(1));
+        &self.visited
+    }
+
+    /// The same with all travels that the node explains, as they were measured.
+    pub(crate) fn travelled(
+        &mut self,
+        node: NodeId,
+        tree: &Tree,
+        experience: &Experience,
+        measured: &Measured,
+    ) -> (&Visited, &Legs) {
+        self.visited(node, tree, experience);
+        self.legs.follow(measured.frames.trail(&self.visited), measured);
+        (&self.visited, &self.legs)
     }
 
     /// The hypothesis at the node it was moved to last.

@@ -21,6 +21,8 @@ pub struct Experience {
     odometry: Vec<Option<Odometry>>,
     /// What is known from elsewhere of which visits are to one place.
     pub(crate) constraints: VisitConstraints,
+    /// Whether maps carry their boundary relations along: whether a search asks for them on its way.
+    carries_boundaries: bool,
 }
 
 impl Experience {
@@ -37,12 +39,18 @@ impl Experience {
             bearings,
             odometry: Vec::new(),
             constraints: VisitConstraints::default(),
+            carries_boundaries: true,
         }
     }
 
     /// The same, with what is known from elsewhere of which visits are to one place.
     pub(crate) fn with_constraints(self, constraints: VisitConstraints) -> Self {
         Experience { constraints, ..self }
+    }
+
+    /// The same, for a search that asks for boundary relations on its way, or not.
+    pub(crate) fn with_boundaries(self, carries_boundaries: bool) -> Self {
+        Experience { carries_boundaries, ..self }
     }
 
     /// One visit more.
@@ -109,7 +117,9 @@ impl Experience {
     /// The root of every tree about this experience.
     #[must_use]
     pub fn root(&self) -> Hypothesis {
-        Hypothesis::root(&self.catalog, self.start)
+        let root =
+            if self.carries_boundaries { Hypothesis::root } else { Hypothesis::root_without_boundaries };
+        root(&self.catalog, self.start)
     }
 
     /// Where the robot is at the root.
@@ -142,6 +152,7 @@ impl From<&Exploration> for Experience {
             bearings,
             odometry,
             constraints: VisitConstraints::default(),
+            carries_boundaries: true,
         }
     }
 }

@@ -8,15 +8,14 @@ use hssh_metrics::{Pose, PoseId};
 use hssh_topology::{Olp, Position, Star, StarId};
 
 use crate::experience::Experience;
+use crate::visited::Visited;
 
-/// The angles between the frames of visits and of places, for every pair of stars and every φ. It grows with the
+/// The bearings of all stars, from which follows how the frames of visits are turned against those of places. It grows with the
 /// experience.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Frames {
-    /// By star seen, star of the first visit, and rotation of φ; radians.
-    turns: Vec<Vec<Vec<f64>>>,
-    /// By star: the bearings of all its ends.
-    bearings: Vec<Vec<f64>>,
+    /// By star: the directions of all its ends, as unit vectors.
+    directions: Vec<Vec<[f64; 2]>>,
     /// The star seen on each visit, the start first.
     seen: Vec<StarId>,
 }
@@ -30,73 +29,60 @@ impl Frames {
 
     /// Takes notice of the visits that are new.
     pub(crate) fn observe(&mut self, experience: &Experience) {
-        let stars: Vec<&Star> = experience.catalog.stars().collect();
-        for (number, star) in stars.iter().enumerate().skip(self.bearings.len()) {
-            self.bearings.push(bearings(star, experience.bearings(StarId::new(number as u32))));
-        }
-        for seen in 0..stars.len() {
-            let known = self.turns.get(seen).map_or(0, Vec::len);
-            let missing: Vec<_> = (known..stars.len())
-                .map(|first| turns(&self.bearings[seen], &self.bearings[first]))
-                .collect();
-            match self.turns.get_mut(seen) {
-                Some(row) => row.extend(missing),
-                None => self.turns.push(missing),
-            }
+        for (number, star) in experience.catalog.stars().enumerate().skip(self.directions.len()) {
+            let bearings = bearings(star, experience.bearings(StarId::new(number as u32)));
+            let directions = bearings.into_iter().map(|bearing| [bearing.cos(), bearing.sin()]);
+            self.directions.push(directions.collect());
         }
         self.seen.extend(experience.seen().skip(self.seen.len()));
     }
 
-    /// By what angle the frame of a visit is turned against that of a place whose star was `first` on its
-    /// first visit, if φ turns the one star to the other by `rotation`.
-    pub(crate) fn turn(&self, visit: usize, first: StarId, rotation: u32) -> f64 {
-        self.turns[self.seen[visit].index()][first.index()][rotation as usize]
-    }
-
-    /// The same if the place was first seen on the visit `first`.
+    /// By what angle the frame of a visit is turned against that of a place that was first seen on another one, if φ turns the one star to the
+    /// other by `rotation`: the mean difference of the bearings of corresponding ends.
     pub(crate) fn turn_between(&self, visit: usize, first: usize, rotation: u32) -> f64 {
-        self.turn(visit, self.seen[first], rotation)
+        let [seen, first] = [visit, first].map(|visit| &self.directions[self.seen[visit].index()]);
+        let turned = first.iter().cycle().skip(rotation as usize);
+        let (cosine, sine) = seen.iter().zip(turned).fold((0.0, 0.0), |(cosine, sine), ([c, s], [x, y])| {
+            (cosine + (x * c + y * s), sine + (y * c - x * s))
+        });
+        f64::atan2(sine, cosine)
     }
 
-    /// The frame of each visit in the frame of its place.
-    pub(crate) fn trail(&self, visits: Vec<Position>) -> Trail {
-        let mut trail = Trail { frames: Vec::with_capacity(visits.len()), first_seen: Vec::new(), visits };
-        for (visit, position) in trail.visits.iter().enumerate() {
-            if position.place.index() == trail.first_seen.len() {
-                trail.first_seen.push(self.seen[visit]);
-            }
-            let first = trail.first_seen[position.place.index()];
-            trail.frames.push(Pose::new(0.0, 0.0, self.turn(visit, first, position.phi.rotation())));
-        }
-        trail
+    /// Where a hypothesis takes the robot to have been, with the frames of visits.
+    pub(crate) fn trail<'a>(&'a self, visited: &'a Visited) -> Trail<'a> {
+        Trail { frames: self, visited }
     }
 }
 
 /// Where a hypothesis takes the robot to have been.
-#[derive(Clone, Debug)]
-pub(crate) struct Trail {
-    /// The place of each visit, with φ. Places are numbered in the order they were found.
-    pub(crate) visits: Vec<Position>,
-    /// The frame of each visit in the frame of its place.
-    pub(crate) frames: Vec<Pose>,
-    /// By place: the star seen on its first visit, whose bearings give the place its frame.
-    pub(crate) first_seen: Vec<StarId>,
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Trail<'a> {
+    frames: &'a Frames,
+    visited: &'a Visited,
 }
 
-impl Trail {
-    /// The place of a visit, as a pose of a graph, and the visit's frame in it.
-    pub(crate) fn end(&self, visit: usize) -> (PoseId, Pose) {
-        (PoseId(self.visits[visit].place.number()), self.frames[visit])
+impl Trail<'_> {
+    /// How many visits there are.
+    pub(crate) fn visits(self) -> usize {
+        self.visited.positions().len()
     }
-}
 
-/// By rotation of φ: the mean difference of the bearings of corresponding ends. None if there is no φ, for want of
-/// as many ends.
-fn turns(seen: &[f64], first: &[f64]) -> Vec<f64> {
-    let degree = seen.len();
-    let rotations = if degree == first.len() { 0..degree } else { 0..0 };
-    let turn = |rotation| circular_mean((0..degree).map(|end| first[(end + rotation) % degree] - seen[end]));
-    rotations.map(turn).collect()
+    /// How many places were visited.
+    pub(crate) fn places(self) -> usize {
+        self.visited.first_visits().len()
+    }
+
+    /// The place of a visit, as a pose of a graph, and the visit's frame in it.
+    pub(crate) fn end(self, visit: usize) -> (PoseId, Pose) {
+        self.end_at(visit, self.visited.positions()[visit])
+    }
+
+    /// The same if the visit is to a known place.
+    pub(crate) fn end_at(self, visit: usize, position: Position) -> (PoseId, Pose) {
+        let Position { place, phi } = position;
+        let first = self.visited.first_visits()[place.index()];
+        (PoseId(place.number()), Pose::new(0.0, 0.0, self.frames.turn_between(visit, first, phi.rotation())))
+    }
 }
 
 /// The bearings of all ends of a star. Ends without bearings count as spread evenly around the place, clockwise, turned so

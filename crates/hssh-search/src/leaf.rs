@@ -4,7 +4,7 @@ use std::cmp::Ordering;
 use std::fmt::Debug;
 
 use hssh_metrics::SolveError;
-use hssh_topology::{Outcome, Position, Removals};
+use hssh_topology::{Outcome, Removals};
 
 use crate::context::Context;
 use crate::cursor::Cursor;
@@ -12,6 +12,7 @@ use crate::limits::StopReason;
 use crate::report::{Probable, Score};
 use crate::tree::{Child, NodeId, Tree};
 use crate::visit::MeasurementError;
+use crate::visited::Visited;
 
 /// An objective at work: it says what makes one map better than another, and how good the maps can be at best that come of
 /// an open hypothesis.
@@ -96,9 +97,9 @@ pub(crate) trait Appraise: Debug + Sync + Sized {
     /// The key in public terms.
     fn score(&self, key: Self::Key) -> Score;
 
-    /// What makes the map of a settled leaf probable, if keys weigh; `visits` are where the robot was.
-    fn probable(&self, leaf: &Leaf<Self>, visits: Vec<Position>) -> Option<Probable> {
-        let _ = (leaf, visits);
+    /// What makes the map of a settled leaf probable, if keys weigh; `visited` is where the robot was.
+    fn probable(&self, leaf: &Leaf<Self>, visited: &Visited) -> Option<Probable> {
+        let _ = (leaf, visited);
         None
     }
 

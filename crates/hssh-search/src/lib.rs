@@ -39,6 +39,7 @@ mod frames;
 mod fringe;
 mod frontier;
 mod leaf;
+mod legs;
 mod limits;
 mod mapper;
 mod measured;
@@ -53,6 +54,7 @@ mod strategy;
 mod tally;
 mod tree;
 mod visit;
+mod visited;
 
 pub use branch::Branch;
 pub use branching::{BranchingSample, branching};

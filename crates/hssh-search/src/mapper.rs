@@ -149,6 +149,9 @@ impl Mapper {
             model.check()?;
         }
         let crew = Crew::new(options.threads)?;
+        let asks_for_boundaries =
+            options.objective.asks_for_boundaries() || options.axioms.ask_for_boundaries();
+        let experience = experience.with_boundaries(asks_for_boundaries);
         let experience = experience.with_constraints(options.constraints.clone());
         let context = Context { experience: &experience, axioms: &options.axioms, crew: &crew, watch };
         let MapperBuilder { order, goal, proving, .. } = options;
@@ -351,7 +354,7 @@ impl Mapper {
     #[must_use]
     pub fn pose_graph(&self, map: &RankedMap) -> Option<PoseGraph> {
         let Search::Posterior(engine) = &self.search else { return None };
-        engine.appraiser.graph(self.visits(map.node), &map.probable.as_ref()?.poses)
+        engine.appraiser.graph(&self.visits(map.node), &map.probable.as_ref()?.poses)
     }
 
     /// What the proof rests on, as text that can be checked by itself: the branches left open with their bounds, the maps found, the
@@ -409,11 +412,11 @@ impl Mapper {
         for leaf in engine.found.iter().map(|found| &found.leaf).chain(&partial) {
             let node = leaf.node;
             let is_listed = maps.len() < most;
-            let visits = (is_listed && A::WEIGHS).then(|| cursor.visits(node, &engine.tree, experience));
+            let visited = (is_listed && A::WEIGHS).then(|| cursor.visited(node, &engine.tree, experience));
+            let probable = visited.and_then(|visited| engine.appraiser.probable(leaf, visited));
             let map = &cursor.go_to(node, &engine.tree, experience).map;
             counts.record(map, preference);
             if is_listed {
-                let probable = visits.and_then(|visits| engine.appraiser.probable(leaf, visits));
                 maps.push(RankedMap { probable, ..RankedMap::of(node, map) });
             }
         }

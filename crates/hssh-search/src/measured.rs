@@ -87,39 +87,26 @@ impl Measured {
 
     /// The pose graph of a hypothesis about the first travels: one pose per place, one edge per travel
     /// (section 4.2), and the first pose anchored. Travels from a place to itself are left out.
-    pub(crate) fn graph(&self, trail: &Trail, poses: &[Pose]) -> PoseGraph {
+    pub(crate) fn graph(&self, trail: Trail<'_>, poses: impl Iterator<Item = Pose>) -> PoseGraph {
         let mut graph = PoseGraph::new();
-        for &pose in poses {
+        for pose in poses {
             graph.add_pose(pose);
         }
-        for placed in self.placed_travels(trail).filter(|placed| placed.from != placed.to) {
+        let travels = (0..trail.visits() - 1).map(|travel| self.placed(trail, travel));
+        for placed in travels.filter(|placed| placed.from != placed.to) {
             graph.add_edge(placed.edge()).expect("a hypothesis has its places, and odometry is finite");
         }
         graph.anchor(PoseId(0)).expect("every hypothesis has its first place");
         graph
     }
 
-    /// What travels from a place to itself add to χ²: no layout changes it.
-    pub(crate) fn chi2_of_loops(&self, trail: &Trail) -> f64 {
-        self.placed_travels(trail)
-            .filter(|placed| placed.from == placed.to)
-            .map(|placed| placed.chi2_as_loop())
-            .sum()
-    }
-
-    fn placed_travels<'a>(&'a self, trail: &'a Trail) -> impl Iterator<Item = PlacedTravel> + 'a {
-        (0..trail.visits.len() - 1).map(|travel| self.placed(trail, travel))
-    }
-
     /// A travel that a hypothesis explains.
-    pub(crate) fn placed(&self, trail: &Trail, travel: usize) -> PlacedTravel {
+    pub(crate) fn placed(&self, trail: Trail<'_>, travel: usize) -> PlacedTravel {
         self.travels[travel].between(trail.end(travel), trail.end(travel + 1))
     }
 
     /// The next travel of a hypothesis, if it leads to a place of the map.
-    pub(crate) fn placed_to(&self, trail: &Trail, travel: usize, to: Position) -> PlacedTravel {
-        let turn = self.frames.turn(travel + 1, trail.first_seen[to.place.index()], to.phi.rotation());
-        self.travels[travel]
-            .between(trail.end(travel), (PoseId(to.place.number()), Pose::new(0.0, 0.0, turn)))
+    pub(crate) fn placed_to(&self, trail: Trail<'_>, travel: usize, to: Position) -> PlacedTravel {
+        self.travels[travel].between(trail.end(travel), trail.end_at(travel + 1, to))
     }
 }

@@ -3,13 +3,14 @@
 
 use hssh_causal::Exploration;
 use hssh_metrics::{
-    GraphError, Options, Pose, PoseGraph, PoseId, SolveError, UncertaintyError, chordal_poses, solve,
+    GraphError, Options, Pose, PoseGraph, SolveError, UncertaintyError, chordal_poses, solve,
 };
 use hssh_topology::Position;
 
 use crate::experience::Experience;
 use crate::frames::Frames;
 use crate::measured::MeasuredTravel;
+use crate::visited::Visited;
 
 /// The poses of all places in the frame of the first one.
 #[derive(Clone, PartialEq, Debug)]
@@ -55,18 +56,17 @@ pub fn place_by_odometry(
     exploration: &Exploration,
     visits: &[Position],
 ) -> Result<Option<Placement>, PlacementError> {
-    let trail = Frames::of(&Experience::from(exploration)).trail(visits.to_vec());
+    let (frames, visited) = (Frames::of(&Experience::from(exploration)), Visited::of(visits));
+    let trail = frames.trail(&visited);
     let mut graph = PoseGraph::new();
-    for _ in &trail.first_seen {
+    for _ in 0..trail.places() {
         graph.add_pose(Pose::default());
     }
-    let id = |visit: usize| PoseId(trail.visits[visit].place.number());
     for (index, travel) in exploration.travels().iter().enumerate().take(visits.len().saturating_sub(1)) {
         let Some(odometry) = &travel.odometry else { continue };
         let measured = MeasuredTravel::of(odometry)
             .map_err(|problem| PlacementError::Covariance { travel: index + 1, problem })?;
-        let placed =
-            measured.between((id(index), trail.frames[index]), (id(index + 1), trail.frames[index + 1]));
+        let placed = measured.between(trail.end(index), trail.end(index + 1));
         if placed.from != placed.to {
             graph.add_edge(placed.edge())?;
         }

@@ -176,6 +176,13 @@ impl std::ops::AddAssign for Removals {
 }
 
 impl Axioms {
+    /// Whether a search under these axioms asks for boundary relations, or for the places on paths, at every step: whether its maps had better
+    /// carry them along ([`TopologicalMap::without_boundaries`]).
+    #[must_use]
+    pub fn ask_for_boundaries(&self) -> bool {
+        self.perpendicular || self.consistent_boundaries
+    }
+
     /// The first axiom that a new place would violate.
     #[must_use]
     pub(crate) fn violated_by_new_place(&self, map: &TopologicalMap) -> Option<Axiom> {
@@ -197,7 +204,7 @@ impl Axioms {
             if self.no_circular_path {
                 return Some(Axiom::NoCircularPath);
             }
-        } else if self.no_self_intersection && map.paths_meet(path, other) {
+        } else if self.no_self_intersection && map.paths_of_gateways_meet(a.olp(), b.olp()) {
             return Some(Axiom::NoSelfIntersection);
         }
         if self.max_genus.is_some_and(|most| map.graph().genus() >= most) && !map.share_face(a, b) {
@@ -216,10 +223,10 @@ impl Axioms {
 
 /// Whether a perpendicular map is still perpendicular when two of its paths become one.
 fn stays_perpendicular(map: &TopologicalMap, path: PathId, other: PathId) -> bool {
-    let joined: Vec<u64> =
-        map.place_set(path).iter().zip(map.place_set(other)).map(|(one, two)| one | two).collect();
     let crossing = |third: PathId| third != path && third != other && map.places_on_path(third) > 1;
-    forms_no_triangle(&joined, map.paths().filter(|&third| crossing(third)).map(|third| map.place_set(third)))
+    let sets = map.place_sets(|asked| asked == path || asked == other || crossing(asked));
+    let joined: Vec<u64> = sets.on(path).iter().zip(sets.on(other)).map(|(one, two)| one | two).collect();
+    forms_no_triangle(&joined, map.paths().filter(|&third| crossing(third)).map(|third| sets.on(third)))
 }
 
 /// Whether no path shares two places with `path`, and no two of them that cross `path` in different
@@ -248,11 +255,10 @@ impl TopologicalMap {
     /// Whether no two paths share more than one place, and no three form a triangle (section 3.4).
     #[must_use]
     pub fn is_perpendicular(&self) -> bool {
-        let long: Vec<&[u64]> = self
-            .paths()
-            .filter(|&path| self.places_on_path(path) > 1)
-            .map(|path| self.place_set(path))
-            .collect();
+        let is_long = |path: PathId| self.places_on_path(path) > 1;
+        let sets = self.place_sets(is_long);
+        let long: Vec<&[u64]> =
+            self.paths().filter(|&path| is_long(path)).map(|path| sets.on(path)).collect();
         (0..long.len()).all(|last| forms_no_triangle(long[last], long[..last].iter().copied()))
     }
 }

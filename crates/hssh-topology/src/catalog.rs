@@ -27,6 +27,15 @@ struct Entry {
 /// end. Of all the ends to begin at, the one that gives the least sequence.
 type Signature = Vec<(Passability, Option<String>, u32)>;
 
+/// How a star looks from one of its ends, all around: two ends, of any stars of one catalog, have the same look if and only if they
+/// [match](StarCatalog::matches).
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
+pub struct Look {
+    class: u32,
+    /// From where the signature begins, up to an automorphism.
+    position: u32,
+}
+
 impl StarCatalog {
     /// A catalog without stars.
     #[must_use]
@@ -83,6 +92,17 @@ impl StarCatalog {
             && automorphisms
                 [from_start(olp, from.start).turn_to(from_start(image, to.start), degree) as usize]
     }
+
+    /// How a star looks from one of its ends.
+    #[must_use]
+    pub fn look(&self, star: StarId, olp: Olp) -> Look {
+        let Entry { class, start, .. } = self.entries[star.index()];
+        let automorphisms = &self.automorphisms[class as usize];
+        // The automorphisms are the multiples of the least one.
+        let turns = automorphisms.iter().skip(1);
+        let period = 1 + turns.take_while(|&&is_kept| !is_kept).count() as u32;
+        Look { class, position: start.turn_to(olp, automorphisms.len() as u32) % period }
+    }
 }
 
 /// The signature of a star, and the end it begins at.
@@ -127,10 +147,9 @@ mod tests {
             for (to, &to_id) in stars.iter().zip(&ids) {
                 for olp in from.olps() {
                     for image in to.olps() {
-                        assert_eq!(
-                            catalog.matches(from_id, olp, to_id, image),
-                            Isomorphism::anchored(from, olp, to, image).is_some()
-                        );
+                        let is_match = Isomorphism::anchored(from, olp, to, image).is_some();
+                        assert_eq!(catalog.matches(from_id, olp, to_id, image), is_match);
+                        assert_eq!(catalog.look(from_id, olp) == catalog.look(to_id, image), is_match);
                     }
                 }
             }

@@ -137,7 +137,16 @@ impl Hypothesis {
     /// The basic step: a single place with the first star, φ = identity.
     #[must_use]
     pub fn root(catalog: &StarCatalog, star: StarId) -> Self {
-        let mut map = TopologicalMap::new();
+        Hypothesis::rooted(TopologicalMap::new(), catalog, star)
+    }
+
+    /// The same, for a search that asks for no boundary relation on its way: [`TopologicalMap::without_boundaries`].
+    #[must_use]
+    pub fn root_without_boundaries(catalog: &StarCatalog, star: StarId) -> Self {
+        Hypothesis::rooted(TopologicalMap::without_boundaries(), catalog, star)
+    }
+
+    fn rooted(mut map: TopologicalMap, catalog: &StarCatalog, star: StarId) -> Self {
         let place = map.add_place(star, catalog.star(star));
         Hypothesis { map, position: Position { place, phi: Isomorphism::identity(catalog.star(star)) } }
     }

@@ -31,7 +31,7 @@ mod simplicity;
 mod star;
 
 pub use axioms::{Axiom, Axioms, AxiomsError, Removals};
-pub use catalog::StarCatalog;
+pub use catalog::{Look, StarCatalog};
 pub use embedding::{EmbeddedGraph, EmbeddingError, Faces, Link, PendingEdge};
 pub use hypothesis::{
     Derivation, DerivationError, Footprint, Hypothesis, Observation, Outcome, Position, Rules, Step,

@@ -43,7 +43,10 @@
 pub mod account;
 pub mod answer;
 pub mod export;
+pub mod file;
+pub mod graph;
 pub mod kind;
+pub mod online;
 pub mod page;
 pub mod pipeline;
 

@@ -4,6 +4,7 @@ mod certificates;
 mod closures;
 mod faces;
 mod graphs;
+mod long;
 mod online;
 mod proof;
 pub(crate) mod speed;
@@ -29,6 +30,7 @@ pub(crate) fn run(flags: &flags::Bench) -> Result<(), Box<dyn Error>> {
         Some("closures") => closures::run(runs),
         Some("wrong-closures") => wrong_closures::run(),
         Some("certificates") => certificates::run(),
+        Some("long") => long::run(limit),
         Some("online") => online::run(flags.data.as_deref().or(data.as_deref())),
         None => {
             speed::run(runs)?;
@@ -36,10 +38,15 @@ pub(crate) fn run(flags: &flags::Bench) -> Result<(), Box<dyn Error>> {
             proof::run(limit)
         }
         Some(other) => {
-            let names = "speed, faces, proof, graphs, closures, wrong-closures, online, certificates";
+            let names = "speed, faces, proof, graphs, closures, wrong-closures, online, certificates, long";
             Err(format!("there is no benchmark `{other}`; there are: {names}").into())
         }
     }
+}
+
+/// `cargo xtask measure`: what a benchmark starts as a process of its own.
+pub(crate) fn measure(flags: &flags::Measure) -> Result<(), Box<dyn Error>> {
+    if flags.name.starts_with("long/") { long::measure(flags) } else { speed::measure(flags) }
 }
 
 /// The middle value, the lower one of two; 0 of nothing.

@@ -5,7 +5,7 @@ use std::error::Error;
 use std::fs::File;
 use std::path::Path;
 
-use hssh_local::{LaserLog, LogReader, Message};
+use hssh_local::{LaserLog, LogPosition, LogReader, Message};
 use hssh_metrics::Pose;
 
 /// Two odometry messages, counted from 0, and the true pose of the second as seen from the first.
@@ -38,19 +38,22 @@ impl Relations {
     pub(crate) fn read(file: &Path, log: &Path, scans: &LaserLog) -> Result<Self, Box<dyn Error>> {
         let text = std::fs::read_to_string(file).map_err(|error| format!("{}: {error}", file.display()))?;
         let mut reader = LogReader::new(File::open(log)?)?;
-        let (mut odometry, mut by_line) = (Vec::new(), BTreeMap::new());
+        let (mut odometry, mut by_position) = (Vec::new(), BTreeMap::new());
         while let Some(message) = reader.next_message()? {
             match message {
                 Message::Odometry(pose) => odometry.push(pose),
                 Message::Laser(scan) => {
                     let message = odometry.len().saturating_sub(1);
-                    by_line.insert(reader.line(), ScanAt { message, odometry: scan.odometry });
+                    by_position.insert(
+                        LogPosition::Line(reader.line()),
+                        ScanAt { message, odometry: scan.odometry },
+                    );
                 }
                 _ => {}
             }
         }
         let scans: Option<Vec<ScanAt>> =
-            scans.scans.iter().map(|scan| by_line.get(&scan.line).copied()).collect();
+            scans.scans.iter().map(|scan| by_position.get(&scan.at).copied()).collect();
         let scans = scans.ok_or("a scan of the log is on no line")?;
         let mut relations = Vec::new();
         for line in text.lines().filter(|line| !line.trim().is_empty()) {

@@ -4,6 +4,8 @@ use std::fmt;
 
 use hssh_metrics::Pose;
 
+use super::position::LogPosition;
+
 /// Why one message cannot be used.
 #[derive(Clone, PartialEq, Eq, Debug, thiserror::Error)]
 pub enum MessageProblem {
@@ -62,8 +64,8 @@ pub enum MessageProblem {
 pub enum LogWarning {
     /// A message that was left out.
     Message {
-        /// Its line, counted from 1.
-        line: u64,
+        /// Where it stands.
+        at: LogPosition,
         /// What kind it says it is.
         kind: String,
         /// Why it was left out.
@@ -71,15 +73,15 @@ pub enum LogWarning {
     },
     /// The log breaks off inside a line or inside its compressed data; it was used up to there.
     BreaksOff {
-        /// The last line that began, counted from 1.
-        line: u64,
+        /// The last line that began.
+        at: LogPosition,
         /// What happened there.
         reason: String,
     },
     /// Beams of which the word is no range: nothing came back along them.
     OddBeams {
-        /// The line of the first, counted from 1.
-        line: u64,
+        /// Where the first scan with one stands.
+        at: LogPosition,
         /// Its word.
         word: String,
         /// How many beams there are.
@@ -146,10 +148,8 @@ pub enum LogWarning {
     },
     /// The odometry jumps as no robot moves; the step is bridged by the one before it and by the scans.
     Jump {
-        /// The line behind the jump, counted from 1; in recordings without lines, the number of the next scan.
-        line: u64,
-        /// Whether it is a line of a text.
-        is_text: bool,
+        /// Behind the jump; in recordings without lines, the next scan.
+        at: LogPosition,
         /// How far it jumps: metres.
         metres: f64,
         /// How far it turns: radians.
@@ -158,13 +158,14 @@ pub enum LogWarning {
 }
 
 impl LogWarning {
-    /// The line that it is about, counted from 1; 0 if it is about the whole log.
-    pub(super) fn line(&self) -> u64 {
+    /// Where in the log that is which it is about; `None` if it is about the whole log.
+    #[must_use]
+    pub fn position(&self) -> Option<LogPosition> {
         match self {
-            LogWarning::Message { line, .. }
-            | LogWarning::BreaksOff { line, .. }
-            | LogWarning::OddBeams { line, .. }
-            | LogWarning::Jump { line, .. } => *line,
+            LogWarning::Message { at, .. }
+            | LogWarning::BreaksOff { at, .. }
+            | LogWarning::OddBeams { at, .. }
+            | LogWarning::Jump { at, .. } => Some(*at),
             LogWarning::RangeLimit { .. }
             | LogWarning::LimitDoubted { .. }
             | LogWarning::LaserPose { .. }
@@ -173,7 +174,7 @@ impl LogWarning {
             | LogWarning::Mirrored
             | LogWarning::Remark { .. }
             | LogWarning::ScansAlone
-            | LogWarning::View { .. } => 0,
+            | LogWarning::View { .. } => None,
         }
     }
 
@@ -199,15 +200,15 @@ impl LogWarning {
 impl fmt::Display for LogWarning {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            LogWarning::Message { line, kind, problem } => {
-                write!(f, "line {line}: {kind} left out: {problem}")
+            LogWarning::Message { at, kind, problem } => {
+                write!(f, "{at}: {kind} left out: {problem}")
             }
-            LogWarning::BreaksOff { line, reason } => {
-                write!(f, "line {line}: the log breaks off here ({reason}); it was used up to this line")
+            LogWarning::BreaksOff { at, reason } => {
+                write!(f, "{at}: the log breaks off here ({reason}); it was used up to this line")
             }
-            LogWarning::OddBeams { line, word, beams, scans } => write!(
+            LogWarning::OddBeams { at, word, beams, scans } => write!(
                 f,
-                "line {line}: `{word}` is no range; that beam and {} others in {scans} scans were taken to have brought \
+                "{at}: `{word}` is no range; that beam and {} others in {scans} scans were taken to have brought \
                  nothing back",
                 beams - 1
             ),
@@ -262,11 +263,10 @@ impl fmt::Display for LogWarning {
                 "there is no odometry: scan matching alone says how the robot moved, which errs along corridors that look \
                  the same everywhere, and where the robot moves or turns far between two scans"
             ),
-            LogWarning::Jump { line, is_text, metres, turn } => write!(
+            LogWarning::Jump { at, metres, turn } => write!(
                 f,
-                "{} {line}: the odometry jumps by {metres:.1} m and {:.0}°, as no robot moves; the step was bridged by \
+                "{at}: the odometry jumps by {metres:.1} m and {:.0}°, as no robot moves; the step was bridged by \
                  scan matching",
-                if *is_text { "line" } else { "scan" },
                 turn.to_degrees()
             ),
         }

@@ -6,6 +6,7 @@ use super::error::{LogError, LogWarning};
 use super::log::{LaserLog, LoggedScan};
 use super::message::Message;
 use super::mount::LaserMount;
+use super::position::LogPosition;
 use super::raw::{self, RawLog, RawScan};
 use super::reader::LogReader;
 use crate::scan::Scan;
@@ -23,8 +24,7 @@ impl GrowingLog {
     /// A log without messages yet, of whose laser something may be known that the log will not say, or will say wrongly.
     #[must_use]
     pub fn new(known: LaserMount) -> Self {
-        let raw = RawLog { is_text: true, ..RawLog::default() };
-        GrowingLog { raw, known, lines: 0, warnings: Vec::new() }
+        GrowingLog { raw: RawLog::default(), known, lines: 0, warnings: Vec::new() }
     }
 
     /// Adds what a reader read last, and what it passed over before; nothing but the latter at its end.
@@ -32,7 +32,7 @@ impl GrowingLog {
         self.lines = reader.line();
         self.warnings.append(&mut reader.take_warnings());
         if let Some(message) = message {
-            self.raw.add(message, self.lines);
+            self.raw.add(message, LogPosition::Line(self.lines));
         }
     }
 
@@ -68,13 +68,13 @@ impl GrowingLog {
         raw.bridge_jumps(&mut warnings);
         let max_range = raw.limit(&mut warnings)?;
         let is_facing_unclear = raw.check_facing(view, max_range, &mut warnings);
-        warnings.sort_by_key(LogWarning::line);
+        warnings.sort_by_key(LogWarning::position);
         let logged = |scan: RawScan| LoggedScan {
             scan: Scan { ranges: raw::came_back(scan.ranges, max_range), view, turn },
             odometry: raw.trajectory[scan.moment].pose,
             moment: scan.moment,
             corrected: scan.corrected,
-            line: scan.line,
+            at: scan.at,
             time: scan.time,
         };
         Ok(LaserLog {

@@ -27,24 +27,24 @@ impl RawLog {
         let times = self.times(raw.len());
         let mut position = Vec::with_capacity(raw.len());
         let (mut moved, mut last_step) = (Pose::IDENTITY, Pose::IDENTITY);
-        for (index, &Moment { pose, line }) in raw.iter().enumerate() {
+        for (index, &Moment { pose, at }) in raw.iter().enumerate() {
             if let Some(before) = index.checked_sub(1) {
                 let step = raw[before].pose.between(pose);
                 let seconds =
                     times[index].zip(times[before]).map(|([_, later], [earlier, _])| later - earlier);
                 if is_jump(step, usual, seconds) {
                     let (metres, turn) = (step.translation().norm(), step.theta);
-                    warnings.push(LogWarning::Jump { line, is_text: self.is_text, metres, turn });
+                    warnings.push(LogWarning::Jump { at, metres, turn });
                     let here = self.trajectory.last().map_or(pose, |last| last.pose);
                     moved = here.compose(last_step).compose(pose.inverse());
                     let away = here.compose(Pose::new(DETOUR / 2.0, 0.0, 0.0));
-                    self.trajectory.extend([away, here].map(|pose| Moment { pose, line }));
+                    self.trajectory.extend([away, here].map(|pose| Moment { pose, at }));
                 } else {
                     last_step = step;
                 }
             }
             position.push(self.trajectory.len());
-            self.trajectory.push(Moment { pose: moved.compose(pose), line });
+            self.trajectory.push(Moment { pose: moved.compose(pose), at });
         }
         for scan in &mut self.scans {
             scan.moment = position[scan.moment];

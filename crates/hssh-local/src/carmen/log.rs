@@ -5,6 +5,7 @@ use std::collections::BTreeMap;
 use hssh_metrics::Pose;
 
 use super::error::LogWarning;
+use super::position::LogPosition;
 use crate::scan::Scan;
 
 /// A scan and where it was taken.
@@ -19,8 +20,8 @@ pub struct LoggedScan {
     /// The pose after somebody's scan matching, or the raw one where nobody did any. For scoring only: no part of the mapper looks at it, but for the laser's
     /// place on the robot, which logs that nobody corrected tell by it.
     pub corrected: Pose,
-    /// The line of the log, counted from 1; in recordings without lines, the scan's number among all, counted from 1.
-    pub line: u64,
+    /// Where in the log it stands.
+    pub at: LogPosition,
     /// When it was taken, in seconds of the recording program's clock, if the log says so.
     pub time: Option<f64>,
 }

@@ -6,12 +6,11 @@ use hssh_metrics::Pose;
 
 use super::error::{LogError, LogWarning, MessageProblem};
 use super::message::{LaserKind, LaserMessage, LaserView, Message};
+use super::position::LogPosition;
 
 /// All messages of a log.
 #[derive(Clone, Default)]
 pub(crate) struct RawLog {
-    /// Whether it has lines.
-    pub(crate) is_text: bool,
     /// The scans in order.
     pub(crate) scans: Vec<RawScan>,
     /// All raw odometry in order, that of the scans included.
@@ -35,19 +34,19 @@ pub(crate) struct RawScan {
     pub(crate) corrected: Pose,
     /// Its own position in the trajectory.
     pub(crate) moment: usize,
-    pub(crate) line: u64,
+    pub(crate) at: LogPosition,
     pub(crate) time: Option<f64>,
 }
 
-/// A pose of raw odometry, and the line that has it.
+/// A pose of raw odometry, and where in the log it stands.
 #[derive(Clone, Copy)]
 pub(crate) struct Moment {
     pub(crate) pose: Pose,
-    pub(crate) line: u64,
+    pub(crate) at: LogPosition,
 }
 
 impl RawLog {
-    pub(super) fn add(&mut self, message: Message, line: u64) {
+    pub(super) fn add(&mut self, message: Message, at: LogPosition) {
         match message {
             Message::Laser(laser) => {
                 let LaserMessage { kind, looks, ranges, odd_beams, odd_word, corrected, odometry, time } =
@@ -56,7 +55,7 @@ impl RawLog {
                 let (corrected, pose) =
                     if kind == LaserKind::Raw { (last, last) } else { (corrected, odometry) };
                 let moment = self.trajectory.len();
-                self.trajectory.push(Moment { pose, line });
+                self.trajectory.push(Moment { pose, at });
                 self.scans.push(RawScan {
                     kind,
                     looks,
@@ -65,11 +64,11 @@ impl RawLog {
                     odd_word,
                     corrected,
                     moment,
-                    line,
+                    at,
                     time,
                 });
             }
-            Message::Odometry(pose) => self.trajectory.push(Moment { pose, line }),
+            Message::Odometry(pose) => self.trajectory.push(Moment { pose, at }),
             Message::Parameter { name, value } => {
                 if let Some(number) = value.parse().ok().filter(|number: &f64| number.is_finite()) {
                     self.parameters.insert(name.to_ascii_lowercase(), number);
@@ -124,7 +123,7 @@ impl RawLog {
             let found = scan.ranges.len();
             if found != expected {
                 let problem = MessageProblem::OtherBeamCount { found, expected };
-                warnings.push(LogWarning::Message { line: scan.line, kind: "FLASER".to_owned(), problem });
+                warnings.push(LogWarning::Message { at: scan.at, kind: "FLASER".to_owned(), problem });
             }
             found == expected
         });
@@ -135,7 +134,7 @@ impl RawLog {
         let odd = self.scans.iter().filter(|scan| scan.odd_beams > 0);
         let Some(first) = odd.clone().next() else { return };
         warnings.push(LogWarning::OddBeams {
-            line: first.line,
+            at: first.at,
             word: first.odd_word.clone().unwrap_or_default(),
             beams: odd.clone().map(|scan| scan.odd_beams as u64).sum(),
             scans: odd.count() as u64,

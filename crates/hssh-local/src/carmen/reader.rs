@@ -6,6 +6,7 @@ use flate2::bufread::MultiGzDecoder;
 
 use super::error::{LogError, LogWarning};
 use super::message::Message;
+use super::position::LogPosition;
 
 /// How every gzip file begins.
 const GZIP_MAGIC: [u8; 2] = [0x1f, 0x8b];
@@ -52,7 +53,7 @@ impl<'a> LogReader<'a> {
 
     fn warn(&mut self, kind: &str, problem: super::MessageProblem) {
         let kind = kind.to_owned();
-        self.warnings.push(LogWarning::Message { line: self.line, kind, problem });
+        self.warnings.push(LogWarning::Message { at: LogPosition::Line(self.line), kind, problem });
     }
 
     /// The next message, or `None` at the end of the log.
@@ -105,6 +106,7 @@ impl<'a> LogReader<'a> {
 
     fn break_off(&mut self, reason: &str) {
         self.broken = true;
-        self.warnings.push(LogWarning::BreaksOff { line: self.line, reason: reason.to_owned() });
+        let at = LogPosition::Line(self.line);
+        self.warnings.push(LogWarning::BreaksOff { at, reason: reason.to_owned() });
     }
 }

@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use hssh_metrics::Pose;
 
 use crate::carmen::{
-    LaserKind, LaserLog, LogError, LogWarning, LoggedScan, Moment, RawLog, RawScan, came_back,
+    LaserKind, LaserLog, LogError, LogPosition, LogWarning, LoggedScan, Moment, RawLog, RawScan, came_back,
 };
 use crate::matching::{TimedScan, odometry_from_scans};
 use crate::scan::Scan;
@@ -84,7 +84,7 @@ impl LaserLog {
             odometry: raw.trajectory[scan.moment].pose,
             moment: scan.moment,
             corrected: scan.corrected,
-            line: scan.line,
+            at: scan.at,
             time: scan.time,
         };
         Ok(LaserLog {
@@ -105,8 +105,8 @@ fn merged(scans: Vec<RecordedScan>, odometry: &[TimedPose]) -> (Vec<(f64, f64)>,
     let mut geometry = Vec::with_capacity(scans.len());
     let mut next = 0;
     for (index, RecordedScan { scan, time }) in scans.into_iter().enumerate() {
-        let line = index as u64 + 1;
-        let moment = |pose: Pose| Moment { pose, line };
+        let at = LogPosition::Scan(index as u64 + 1);
+        let moment = |pose: Pose| Moment { pose, at };
         while let Some(reading) = odometry.get(next).filter(|reading| reading.time < time) {
             raw.trajectory.push(moment(reading.pose));
             next += 1;
@@ -133,12 +133,12 @@ fn merged(scans: Vec<RecordedScan>, odometry: &[TimedPose]) -> (Vec<(f64, f64)>,
             odd_word: None,
             corrected: pose,
             moment: raw.trajectory.len() - 1,
-            line,
+            at,
             time: Some(time),
         });
     }
-    let last = geometry.len() as u64;
-    raw.trajectory.extend(odometry[next..].iter().map(|reading| Moment { pose: reading.pose, line: last }));
+    let at = LogPosition::Scan(geometry.len() as u64);
+    raw.trajectory.extend(odometry[next..].iter().map(|reading| Moment { pose: reading.pose, at }));
     (geometry, raw)
 }
 

@@ -5,7 +5,7 @@ use std::io::Write;
 
 use flate2::Compression;
 use flate2::write::GzEncoder;
-use hssh_local::{LaserLog, LaserMount, LogError, LogWarning};
+use hssh_local::{LaserLog, LaserMount, LogError, LogPosition, LogWarning};
 use hssh_metrics::Pose;
 
 /// Three beams are enough to see everything.
@@ -45,7 +45,7 @@ fn scans_and_raw_odometry_come_out_in_order() {
     assert_eq!(log.scans[0].corrected, Pose::new(9.0, 9.0, 9.0));
     assert_eq!(log.trajectory.len(), 3);
     assert_eq!((log.scans[0].moment, log.scans[1].moment), (1, 2));
-    assert_eq!((log.scans[0].line, log.scans[1].line), (4, 6));
+    assert_eq!([log.scans[0].at, log.scans[1].at], [4, 6].map(LogPosition::Line));
     assert_eq!((log.scans[0].time, log.scans[1].time), (Some(0.2), Some(0.3)));
     assert_eq!((log.skipped["#"], log.skipped["RLASER"]), (1, 1));
     assert!(log.warnings.is_empty());

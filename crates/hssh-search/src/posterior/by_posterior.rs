@@ -10,6 +10,7 @@ use crate::context::Context;
 use crate::cursor::Cursor;
 use crate::frames::Trail;
 use crate::leaf::{Appraise, Grown, Growth, Leaf};
+use crate::legs::Legs;
 use crate::limits::StopReason;
 use crate::measured::Measured;
 use crate::order::Order;
@@ -23,6 +24,7 @@ use crate::report::{Probable, Score};
 use crate::step::{Look, successors};
 use crate::tree::{Child, NodeId, Tree};
 use crate::visit::MeasurementError;
+use crate::visited::Visited;
 
 /// A rise of χ² that does not matter.
 pub(crate) const NEGLIGIBLE: f64 = 0.1;
@@ -73,6 +75,8 @@ pub(crate) struct Burden {
     floor: Option<SimplicityFloor>,
     /// What every map that comes of it costs at least.
     pub(crate) bound: Nats,
+    /// ln of how many maps can come of it at most.
+    log_branches: f64,
     placing: Placing,
 }
 
@@ -98,8 +102,9 @@ struct Successor {
 }
 
 /// A hypothesis that is being expanded, in metrical terms.
-struct Departure {
-    trail: Trail,
+struct Departure<'a> {
+    trail: Trail<'a>,
+    legs: &'a Legs,
     layout: Arc<Layout>,
     /// The distribution of its layout, once a travel between known places asks for it.
     marginals: Option<Marginals>,
@@ -129,6 +134,7 @@ impl ByPosterior {
             (_, Placing::Done(_) | Placing::Grown(_)) => Nats(cost.total()),
         };
         leaf.load.bound = bound;
+        leaf.load.log_branches = self.tariff.log_branches(leaf.depth(), leaf.pending);
     }
 
     fn leaf(&self, node: NodeId, depth: usize, pending: u32, burden: Burden) -> Leaf<Self> {
@@ -137,26 +143,31 @@ impl ByPosterior {
         leaf
     }
 
-    /// The layout of a hypothesis that is about to be expanded, and where the robot was in it.
-    fn departure(&self, leaf: &Leaf<Self>, visits: Vec<Position>) -> Option<Departure> {
+    /// The layout of a hypothesis, and where the robot was in it.
+    fn layout<'a>(&'a self, leaf: &Leaf<Self>, visited: &'a Visited) -> Option<(Arc<Layout>, Trail<'a>)> {
         let measured = self.measured.as_ref()?;
-        let trail = measured.frames.trail(visits);
+        let trail = measured.frames.trail(visited);
         let layout = match &leaf.load.placing {
             Placing::Done(layout) | Placing::Strained(layout, _) => Arc::clone(layout),
             Placing::Grown(origin) => {
-                let last = measured.placed(&trail, leaf.depth() - 1);
+                let last = measured.placed(trail, leaf.depth() - 1);
                 Arc::new(origin.with_new_place(&last))
             }
         };
-        Some(Departure { trail, layout, marginals: None })
+        Some((layout, trail))
     }
 
     /// What a travel costs that ends at a known place.
-    fn strain(&self, departure: &mut Departure, travel: usize, to: Position) -> Result<Strain, SolveError> {
+    fn strain(
+        &self,
+        departure: &mut Departure<'_>,
+        travel: usize,
+        to: Position,
+    ) -> Result<Strain, SolveError> {
         let Some(measured) = &self.measured else { return Ok(Strain::default()) };
-        let placed = measured.placed_to(&departure.trail, travel, to);
+        let placed = measured.placed_to(departure.trail, travel, to);
         if departure.marginals.is_none() {
-            departure.marginals = Some(departure.layout.marginals(&departure.trail, measured)?);
+            departure.marginals = Some(departure.layout.marginals(departure.legs)?);
         }
         departure.marginals.as_ref().map_or(Ok(Strain::default()), |marginals| Strain::of(&placed, marginals))
     }
@@ -165,7 +176,7 @@ impl ByPosterior {
     fn pay(
         &self,
         cost: &mut Cost,
-        departure: Option<&mut Departure>,
+        departure: Option<&mut Departure<'_>>,
         travel: usize,
         next: &Successor,
         first_visits: &[usize],
@@ -190,9 +201,9 @@ impl ByPosterior {
     }
 
     /// The pose graph of a map whose places have those poses. `None` if measurements are ignored.
-    pub(crate) fn graph(&self, visits: Vec<Position>, poses: &[Pose]) -> Option<PoseGraph> {
+    pub(crate) fn graph(&self, visits: &[Position], poses: &[Pose]) -> Option<PoseGraph> {
         let measured = self.measured.as_ref()?;
-        Some(measured.graph(&measured.frames.trail(visits), poses))
+        Some(measured.graph(measured.frames.trail(&Visited::of(visits)), poses.iter().copied()))
     }
 }
 
@@ -234,7 +245,8 @@ impl Appraise for ByPosterior {
         let map = context.experience.root().map;
         let cost = Cost { complexity: self.tariff.complexity(&map), ..Cost::default() };
         let placing = Placing::Done(Layout::root());
-        let burden = Burden { cost, floor: self.tariff.floor(&map), bound: Nats(0.0), placing };
+        let burden =
+            Burden { cost, floor: self.tariff.floor(&map), bound: Nats(0.0), log_branches: 0.0, placing };
         self.leaf(NodeId::ROOT, 0, map.pending_count(), burden)
     }
 
@@ -246,10 +258,6 @@ impl Appraise for ByPosterior {
         context: Context<'_>,
     ) -> Growth<Self> {
         let travel = leaf.depth();
-        let visits = cursor.visits(leaf.node, tree, context.experience);
-        let first_visits = first_visits(&visits);
-        let mut departure = self.departure(leaf, visits);
-
         let (mut next, mut step) = (Vec::new(), Step::default());
         let outcome =
             successors(cursor, leaf.node, tree, context, &mut step, Look::Inside, |child, hypothesis| {
@@ -263,14 +271,24 @@ impl Appraise for ByPosterior {
                 });
             });
 
+        let (visited, legs) = match &self.measured {
+            Some(measured) => {
+                let (visited, legs) = cursor.travelled(leaf.node, tree, context.experience, measured);
+                (visited, Some(legs))
+            }
+            None => (cursor.visited(leaf.node, tree, context.experience), None),
+        };
+        let laid_out = self.layout(leaf, visited).zip(legs);
+        let mut departure =
+            laid_out.map(|((layout, trail), legs)| Departure { trail, legs, layout, marginals: None });
         let choice = self.tariff.choice(next.len());
         let mut grown = Vec::with_capacity(next.len());
         for next in next {
             let mut cost = Cost { complexity: next.complexity, ..leaf.load.cost };
             let is_choice = next.child.derivation != Derivation::Predicted;
             cost.choices += if is_choice { choice } else { 0.0 };
-            let placing = self.pay(&mut cost, departure.as_mut(), travel, &next, &first_visits)?;
-            let burden = Burden { cost, floor: next.floor, bound: Nats(0.0), placing };
+            let placing = self.pay(&mut cost, departure.as_mut(), travel, &next, visited.first_visits())?;
+            let burden = Burden { cost, floor: next.floor, bound: Nats(0.0), log_branches: 0.0, placing };
             grown.push((next.child, self.leaf(next.child.parent, travel + 1, next.pending, burden)));
         }
         Ok(Grown { outcome, removals: step.removals, successors: grown, rest: None })
@@ -291,8 +309,8 @@ impl Appraise for ByPosterior {
         let (Placing::Strained(origin, promised), Some(measured)) = (&*placing, &self.measured) else {
             return Ok(None);
         };
-        let trail = measured.frames.trail(cursor.visits(leaf.node, tree, context.experience));
-        let mut layout = origin.bent(&trail, measured, *promised)?;
+        let (_, legs) = cursor.travelled(leaf.node, tree, context.experience, measured);
+        let mut layout = origin.bent(legs, *promised)?;
         // χ² cannot fall along a branch: where it seems to, the parent was caught in a local minimum.
         layout.chi2 = layout.chi2.max(origin.chi2);
         let relied_on = 2.0 * cost.bend > origin.chi2;
@@ -316,7 +334,7 @@ impl Appraise for ByPosterior {
     }
 
     fn log_mass(&self, leaf: &Leaf<Self>) -> f64 {
-        self.tariff.log_branches(leaf.depth(), leaf.pending) - leaf.load.bound.0
+        leaf.load.log_branches - leaf.load.bound.0
     }
 
     fn turns_down_early(&self) -> bool {
@@ -327,8 +345,9 @@ impl Appraise for ByPosterior {
         Score::Nats(cost)
     }
 
-    fn probable(&self, leaf: &Leaf<Self>, visits: Vec<Position>) -> Option<Probable> {
-        let poses = self.departure(leaf, visits).map_or_else(Vec::new, |at| at.layout.poses.clone());
+    fn probable(&self, leaf: &Leaf<Self>, visited: &Visited) -> Option<Probable> {
+        let layout = self.layout(leaf, visited);
+        let poses = layout.map_or_else(Vec::new, |(layout, _)| layout.poses.iter().collect());
         Some(Probable { cost: leaf.load.cost, at_least: 0.0, at_most: 1.0, poses })
     }
 
@@ -338,15 +357,4 @@ impl Appraise for ByPosterior {
             &leaf.load.placing;
         (size_of::<Leaf<Self>>() + layout.poses.len() * size_of::<Pose>()) as u64
     }
-}
-
-/// By place: the visit on which it was found.
-fn first_visits(visits: &[Position]) -> Vec<usize> {
-    let mut first = Vec::new();
-    for (visit, position) in visits.iter().enumerate() {
-        if position.place.index() == first.len() {
-            first.push(visit);
-        }
-    }
-    first
 }

@@ -4,61 +4,66 @@ use std::sync::Arc;
 
 use hssh_metrics::{Marginals, Options, Pose, PoseGraph, SolveError, chordal_poses, solve};
 
-use crate::frames::Trail;
-use crate::measured::{Measured, PlacedTravel};
+use crate::legs::Legs;
+use crate::measured::PlacedTravel;
 use crate::posterior::outlook::trust;
+use crate::posterior::poses::Poses;
 
 /// The most likely poses of all places, the first at the origin.
 #[derive(Clone, PartialEq, Debug)]
 pub(crate) struct Layout {
-    pub(crate) poses: Vec<Pose>,
+    pub(crate) poses: Poses,
     pub(crate) chi2: f64,
 }
 
 impl Layout {
     /// The first place alone.
     pub(crate) fn root() -> Arc<Self> {
-        Arc::new(Layout { poses: vec![Pose::IDENTITY], chi2: 0.0 })
+        Arc::new(Layout::first())
+    }
+
+    /// The same.
+    pub(crate) fn first() -> Self {
+        Layout { poses: std::iter::once(Pose::IDENTITY).collect(), chi2: 0.0 }
     }
 
     /// One place more, at the far end of a travel.
     pub(crate) fn with_new_place(&self, travel: &PlacedTravel) -> Self {
         let mut poses = self.poses.clone();
-        poses.push(poses[travel.from.index()].compose(travel.pose));
+        poses.push(self.poses[travel.from.index()].compose(travel.pose));
         Layout { poses, chi2: self.chi2 }
     }
 
     /// The distribution of the poses around this layout.
-    pub(crate) fn marginals(&self, trail: &Trail, measured: &Measured) -> Result<Marginals, SolveError> {
-        Marginals::new(&measured.graph(trail, &self.poses))
+    pub(crate) fn marginals(&self, legs: &Legs) -> Result<Marginals, SolveError> {
+        Marginals::new(&legs.graph(self.poses.iter()))
     }
 
     /// The layout of a hypothesis that closes a loop in one with this layout, whose last travel it is.
     ///
     /// Least squares start from this layout; if they end far above it, or above what the linear estimate promised,
     /// they may have been caught in a local minimum, and start once more from the measurements alone.
-    pub(crate) fn bent(&self, trail: &Trail, measured: &Measured, promised: f64) -> Result<Self, SolveError> {
-        let loops = measured.chi2_of_loops(trail);
-        self.bent_to(&mut measured.graph(trail, &self.poses), loops, promised)
+    pub(crate) fn bent(&self, legs: &Legs, promised: f64) -> Result<Self, SolveError> {
+        self.bent_to(&mut legs.graph(self.poses.iter()), legs.constant(), promised)
     }
 
-    /// The same for any graph of travels, with this layout's poses; `loops` is what travels from a place to itself add to χ².
+    /// The same for any graph of travels, with this layout's poses; `constant` is what no layout changes of χ².
     pub(crate) fn bent_to(
         &self,
         graph: &mut PoseGraph,
-        loops: f64,
+        constant: f64,
         promised: f64,
     ) -> Result<Self, SolveError> {
         let warm = minimum(graph)?;
-        let chi2 = warm.chi2 + loops;
+        let chi2 = warm.chi2 + constant;
         if chi2 <= 1.0 + 1.5 * promised && chi2 <= self.chi2 + SUSPICIOUS_RISE {
-            return Ok(Layout { chi2: warm.chi2 + loops, ..warm });
+            return Ok(Layout { chi2, ..warm });
         }
         let start = chordal_poses(graph)?;
         graph.set_poses(start).expect("as many as there were");
         let cold = minimum(graph)?;
         let best = if cold.chi2 < warm.chi2 { cold } else { warm };
-        Ok(Layout { chi2: best.chi2 + loops, ..best })
+        Ok(Layout { chi2: best.chi2 + constant, ..best })
     }
 }
 
@@ -67,7 +72,7 @@ const SUSPICIOUS_RISE: f64 = 30.0;
 
 fn minimum(graph: &PoseGraph) -> Result<Layout, SolveError> {
     let solution = solve(graph, &Options::default())?;
-    Ok(Layout { poses: solution.poses, chi2: solution.chi2 })
+    Ok(Layout { poses: solution.poses.into_iter().collect(), chi2: solution.chi2 })
 }
 
 /// What a travel between known places adds, by the linear estimate.

@@ -3,10 +3,15 @@
 mod appearance;
 mod by_posterior;
 mod cost;
+mod course;
 mod layout;
 mod model;
+mod needs;
 mod outlook;
+mod poses;
+mod runs;
 mod tariff;
+mod vicinity;
 mod way;
 
 pub use appearance::Appearance;

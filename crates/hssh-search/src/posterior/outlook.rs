@@ -5,15 +5,14 @@
 //! another and from all visits before must be at as many new places. Either the layout is bent by more than
 //! b, or the new places are paid for.
 
-use std::iter;
-use std::ops::Range;
-
 use hssh_topology::{Olp, StarCatalog, StarId};
 
 use crate::experience::Experience;
 use crate::limits::{StopReason, Watch};
 use crate::measured::Measured;
-use crate::posterior::way::Way;
+use crate::posterior::course::Course;
+use crate::posterior::needs::{Need, Needs};
+use crate::posterior::vicinity::Vicinity;
 
 /// The least share of a linear estimate of χ² that is taken to be its true value at least. The linear
 /// estimate of a rise of χ² holds for small turns; a layout that can turn at will may get away with less.
@@ -31,9 +30,6 @@ pub(crate) fn trust(heading_variance: f64) -> f64 {
 const FIRST_THRESHOLD: f64 = 0.5;
 const THRESHOLD_FACTOR: f64 = 1.25;
 const THRESHOLDS: usize = 40;
-
-/// Visits between two looks at the clock.
-const LOOK: usize = 32;
 
 /// Which visits can have been to one place.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -54,8 +50,11 @@ pub(crate) struct Outlook {
     needs: Vec<Needs>,
     /// How many visits there are.
     visits: usize,
-    /// The earlier visits that odometry alone still tells something about, in order, each with the way from there to the last visit.
-    ways: Vec<(usize, Way)>,
+    /// Where odometry alone says that they are.
+    course: Course,
+    /// The first visit of which odometry still tells something when the last one is looked at: the heading is lost with time, and no
+    /// travel brings it back.
+    told_from: usize,
     /// The visits by what was seen: stars of one kind can be one place.
     kinds: Vec<Kind>,
 }
@@ -65,85 +64,8 @@ pub(crate) struct Outlook {
 struct Kind {
     star: StarId,
     first: usize,
-    /// Those that odometry tells nothing about any more, in order.
-    lost: Vec<usize>,
-}
-
-/// The earlier visits that may have been to the same place as one.
-struct Candidates {
-    /// Of which kind of star they are; those that are lost may be it at no price.
-    kind: usize,
-    /// Those of which odometry tells something, in order, with how much χ²/2 rises at least.
-    near: Vec<(usize, f64)>,
-    /// The first of all, at whatever price.
-    first: Option<usize>,
-}
-
-/// Which visits need a new place if χ²/2 stays below a threshold, by the number of travels explained: greedily in order, each visit
-/// that is near no explained one and near none that needs a place before it.
-#[derive(Clone, Debug, Default)]
-struct Needs {
-    /// By visit: the numbers of travels explained with which it needs a place, in ascending intervals.
-    with: Vec<Vec<Range<usize>>>,
-    /// By number of travels explained: how many visits more need one than with one travel less.
-    changes: Vec<i32>,
-    /// By number of travels explained: how many visits need one.
-    counts: Vec<u32>,
-}
-
-impl Needs {
-    /// Adds a visit that is near those earlier ones, in ascending order.
-    fn push(&mut self, near: impl Iterator<Item = usize>) {
-        let visit = self.with.len();
-        let mut near = near.peekable();
-        // Where less is explained than the first near visit, only visits at new places can be near.
-        let first_near = near.peek().copied().unwrap_or(visit);
-        let mut with = Vec::new();
-        with.extend((first_near > 0).then_some(0..first_near));
-        while !with.is_empty()
-            && let Some(earlier) = near.next()
-        {
-            with = without(&with, &self.with[earlier]);
-        }
-        self.changes.resize(visit + 2, 0);
-        for interval in &with {
-            self.changes[interval.start] += 1;
-            self.changes[interval.end] -= 1;
-        }
-        self.with.push(with);
-    }
-
-    /// Counts the visits pushed.
-    fn count(&mut self) {
-        let sums = self.changes.iter().scan(0, |sum, change| {
-            *sum += change;
-            Some(*sum)
-        });
-        self.counts = sums.take(self.with.len()).map(|sum| sum as u32).collect();
-    }
-}
-
-/// Ascending intervals without what is in others.
-fn without(intervals: &[Range<usize>], taken: &[Range<usize>]) -> Vec<Range<usize>> {
-    let mut left = Vec::with_capacity(intervals.len());
-    let mut taken = taken.iter().peekable();
-    for interval in intervals {
-        let mut from = interval.start;
-        while let Some(next) = taken.peek().filter(|next| next.start < interval.end) {
-            if from < next.start {
-                left.push(from..next.start);
-            }
-            from = from.max(next.end);
-            if next.end > interval.end {
-                break; // it may take from the following interval, too
-            }
-            taken.next();
-        }
-        if from < interval.end {
-            left.push(from..interval.end);
-        }
-    }
-    left
+    /// All of them, where they are measured.
+    visits: Vicinity,
 }
 
 impl Outlook {
@@ -155,10 +77,11 @@ impl Outlook {
         let thresholds: Vec<f64> = steps.chain([f64::MAX]).collect();
         let mut needs = vec![Needs::default(); thresholds.len()];
         for needs in &mut needs {
-            needs.push(iter::empty());
+            needs.push(Need::Always);
             needs.count();
         }
-        Outlook { sameness, thresholds, needs, visits: 1, ways: Vec::new(), kinds: Vec::new() }
+        let (course, kinds) = (Course::new(), Vec::new());
+        Outlook { sameness, thresholds, needs, visits: 1, course, told_from: 0, kinds }
     }
 
     /// Takes notice of the visits that are new. A limit may stop it, and the next call goes on.
@@ -169,117 +92,119 @@ impl Outlook {
         watch: &Watch,
     ) -> Option<StopReason> {
         if self.kinds.is_empty() {
-            self.kind_of(0, experience);
+            self.join_kind(0, experience);
         }
         let mut stop = None;
         for visit in self.visits..=experience.observations.len() {
-            stop = if visit.is_multiple_of(LOOK) { watch.interruption() } else { None };
+            stop = watch.interruption();
             if stop.is_some() {
                 break;
             }
-            let Candidates { kind, near, first } = self.candidates(visit, experience, measured);
-            let lost = &self.kinds[kind].lost;
-            for (&threshold, needs) in self.thresholds.iter().zip(&mut self.needs) {
-                if threshold == f64::MAX {
-                    needs.push(first.into_iter());
-                } else {
-                    let near = near.iter().filter(|&&(_, price)| price <= threshold);
-                    needs.push(merged(lost.iter().copied(), near.map(|&(earlier, _)| earlier)));
-                }
+            if let Some(measured) = measured {
+                self.course.push(&measured.travels[visit - 1]);
+                self.forget(visit);
             }
+            let needed = self.needed(visit, experience, measured);
+            for (needs, need) in self.needs.iter_mut().zip(needed) {
+                needs.push(need);
+            }
+            self.join_kind(visit, experience);
             self.visits += 1;
         }
         self.needs.iter_mut().for_each(Needs::count);
         stop
     }
 
-    /// Which kind of star was seen on a visit; whether it is the first of it.
-    fn kind_of(&mut self, visit: usize, experience: &Experience) -> (usize, bool) {
+    /// Where the heading is lost until a visit, nothing is claimed any more.
+    fn forget(&mut self, visit: usize) {
+        let tells = |earlier: usize| trust(self.course.way(earlier, visit).turn_variance) > 0.0;
+        while self.told_from < visit && !tells(self.told_from) {
+            self.told_from += 1;
+        }
+    }
+
+    /// Which kind of star was seen on a visit, if one of it was seen before.
+    fn kind_of(&self, visit: usize, experience: &Experience) -> Option<usize> {
         let star = experience.star_of(visit);
         let is_alike = |kind: &Kind| {
             self.sameness == Sameness::AnyReading
                 || kind.star == star
                 || rotations(&experience.catalog, star, kind.star).next().is_some()
         };
-        if let Some(known) = self.kinds.iter().position(is_alike) {
-            return (known, false);
-        }
-        self.kinds.push(Kind { star, first: visit, lost: Vec::new() });
-        (self.kinds.len() - 1, true)
+        self.kinds.iter().position(is_alike)
     }
 
-    /// Odometry tells nothing any more about where that visit was.
-    fn lose(&mut self, visit: usize, experience: &Experience) {
-        let (kind, _) = self.kind_of(visit, experience);
-        let lost = &mut self.kinds[kind].lost;
-        let place = lost.partition_point(|&other| other < visit);
-        lost.insert(place, visit);
+    /// A visit is one of its kind from now on.
+    fn join_kind(&mut self, visit: usize, experience: &Experience) {
+        let known = self.kind_of(visit, experience);
+        let kind = known.unwrap_or(self.kinds.len());
+        if known.is_none() {
+            let star = experience.star_of(visit);
+            self.kinds.push(Kind { star, first: visit, visits: Vicinity::new() });
+        }
+        if self.thresholds.len() > 1 {
+            self.kinds[kind].visits.push(visit, &self.course);
+        }
     }
 
-    /// The earlier visits that may have been to the same place as one.
-    fn candidates(
-        &mut self,
-        visit: usize,
-        experience: &Experience,
-        measured: Option<&Measured>,
-    ) -> Candidates {
-        let before = visit - 1;
-        match measured {
-            Some(measured) => self.lengthen(&Way::of(&measured.travels[before]), before, experience),
-            None => self.lose(before, experience),
-        }
-        let (kind, is_first) = self.kind_of(visit, experience);
-        let Kind { first, ref lost, .. } = self.kinds[kind];
-        let mut found = Candidates { kind, near: Vec::new(), first: (!is_first).then_some(first) };
-        // Where the first visit is lost, nothing more is asked: whatever is explained, it may have been to the same place.
-        let Some(measured) = measured.filter(|_| lost.first() != Some(&0)) else { return found };
-        let seen = experience.star_of(visit);
-        let most = self.thresholds[self.thresholds.len() - 2];
-        for (earlier, way) in &self.ways {
-            let trusted = trust(way.turn_variance);
-            if way.certainly_exceeds(most / trusted) {
+    /// By threshold: with which numbers of travels explained a visit needs a new place.
+    fn needed(&self, visit: usize, experience: &Experience, measured: Option<&Measured>) -> Vec<Need> {
+        let Some(kind) = self.kind_of(visit, experience) else {
+            return vec![Need::Always; self.thresholds.len()];
+        };
+        let mut needed = vec![Need::never(); self.thresholds.len()];
+        let Kind { first, ref visits, .. } = self.kinds[kind];
+        // The first of a kind is at a place that is known or new; whoever may be there at no price needs none.
+        let Some(measured) = measured.filter(|_| first >= self.told_from) else { return needed };
+        let mut open = self.thresholds.len() - 1;
+        needed[..open].fill(Need::Always);
+        let mut number = 0;
+        // Thresholds with which nothing is needed any more ask no more; those above ask for more visits and mostly end sooner.
+        while open > 0 {
+            let limit = self.thresholds[open - 1] / LINEAR_TRUST;
+            let Some((near, earlier)) = visits.next(number, visit, limit, &self.course) else { break };
+            number = near + 1;
+            if self.is_out(visit, earlier, limit, experience, measured) {
                 continue;
             }
-            let half_chi2 = match self.sameness {
-                Sameness::Isomorphic => {
-                    let rotations = rotations(&experience.catalog, seen, experience.star_of(*earlier));
-                    let turn = |rotation| measured.frames.turn_between(visit, *earlier, rotation);
-                    way.least_half_chi2(rotations.map(turn))
+            let price = self.price(visit, earlier, experience, measured);
+            for (index, needs) in self.needs[..open].iter().enumerate() {
+                if price <= self.thresholds[index] && !needed[index].is_never() {
+                    needed[index] = needs.without(&needed[index], visit, earlier);
                 }
-                Sameness::AnyReading => way.half_chi2_of_position(),
-            };
-            let price = trusted * half_chi2;
-            if price <= most {
-                found.near.push((*earlier, price));
+            }
+            while open > 0 && needed[open - 1].is_never() {
+                open -= 1;
             }
         }
-        found
+        needed
     }
 
-    /// One travel more, from the visit `before` on.
-    fn lengthen(&mut self, step: &Way, before: usize, experience: &Experience) {
-        // Where double precision does not tell the two visits apart any more, nothing is claimed; nor where the heading is lost,
-        // which no travel brings back.
-        let tells = |way: &Way| trust(way.turn_variance) > 0.0;
-        let mut lost = Vec::new();
-        self.ways.retain_mut(|(earlier, way)| match way.then(step).filter(tells) {
-            Some(longer) => {
-                *way = longer;
-                true
-            }
-            None => {
-                lost.push(*earlier);
-                false
-            }
-        });
-        if tells(step) {
-            self.ways.push((before, *step));
-        } else {
-            lost.push(before);
+    /// Whether it is plain that χ²/2 rises by more than that if a visit is to the place of an earlier one.
+    fn is_out(
+        &self,
+        visit: usize,
+        earlier: usize,
+        half_chi2: f64,
+        experience: &Experience,
+        measured: &Measured,
+    ) -> bool {
+        let turns = turns(visit, earlier, experience, measured);
+        self.sameness == Sameness::Isomorphic
+            && self.course.about(earlier, visit).certainly_exceeds(turns, half_chi2)
+    }
+
+    /// How much χ²/2 rises at least if a visit is to the place of an earlier one.
+    fn price(&self, visit: usize, earlier: usize, experience: &Experience, measured: &Measured) -> f64 {
+        let way = self.course.way(earlier, visit);
+        if !way.is_sound() {
+            return 0.0;
         }
-        for visit in lost {
-            self.lose(visit, experience);
-        }
+        let half_chi2 = match self.sameness {
+            Sameness::Isomorphic => way.least_half_chi2(turns(visit, earlier, experience, measured)),
+            Sameness::AnyReading => way.half_chi2_of_position(),
+        };
+        trust(way.turn_variance) * half_chi2
     }
 
     /// The least of χ²/2 plus what new places cost, over all maps that may come of one that explains that
@@ -289,7 +214,7 @@ impl Outlook {
         let mut from = 0.0_f64; // χ²/2 is between `from` and the next threshold
         for (&to, needs) in self.thresholds.iter().zip(&self.needs) {
             if to >= bend {
-                least = least.min(from.max(bend) + cost(needs.counts[explained]));
+                least = least.min(from.max(bend) + cost(needs.counted(explained)));
                 if from.max(bend) + cost(0) >= least {
                     break;
                 }
@@ -300,47 +225,97 @@ impl Outlook {
     }
 }
 
+/// By what angles the frame of a visit may be turned against that of an earlier one at the same place.
+fn turns<'a>(
+    visit: usize,
+    earlier: usize,
+    experience: &'a Experience,
+    measured: &'a Measured,
+) -> impl Iterator<Item = f64> + 'a {
+    let (seen, known) = (experience.star_of(visit), experience.star_of(earlier));
+    let rotations = rotations(&experience.catalog, seen, known);
+    rotations.map(move |rotation| measured.frames.turn_between(visit, earlier, rotation))
+}
+
 /// The rotations of all isomorphisms between two stars.
 fn rotations(catalog: &StarCatalog, seen: StarId, first: StarId) -> impl Iterator<Item = u32> + '_ {
     let degree = catalog.star(first).degree();
     (0..degree).filter(move |&rotation| catalog.matches(seen, Olp::new(0), first, Olp::new(rotation)))
 }
 
-/// Two ascending sequences as one.
-fn merged(
-    one: impl Iterator<Item = usize>,
-    other: impl Iterator<Item = usize>,
-) -> impl Iterator<Item = usize> {
-    let (mut one, mut other) = (one.peekable(), other.peekable());
-    iter::from_fn(move || match (one.peek(), other.peek()) {
-        (Some(first), Some(second)) if second < first => other.next(),
-        (Some(_), _) => one.next(),
-        (None, _) => other.next(),
-    })
-}
-
 #[cfg(test)]
 mod tests {
-    use super::*;
+    use std::sync::Arc;
 
-    /// The same by the definition, number by number.
+    use hssh_causal::Exploration;
+    use hssh_world::{PlaceId, PolarNoise, grid};
+
+    use super::*;
+    use crate::limits::Limits;
+    use crate::posterior::way::Way;
+
+    /// Round and round the two rows of a grid, with so many standard deviations of what a good robot errs by.
+    fn laps(columns: u32, travels: usize, errors: f64) -> Exploration {
+        let world = grid(2, columns, 8.0).unwrap();
+        let around: Vec<u32> = (0..columns).chain((columns..2 * columns).rev()).collect();
+        let places: Vec<PlaceId> =
+            around.iter().cycle().take(travels + 1).map(|&place| PlaceId(place)).collect();
+        let (distance, bearing, rotation) = (0.05 * errors, 0.005 * errors, 0.005 * errors);
+        let noise = PolarNoise { distance, distance_share: 0.0, bearing, rotation };
+        world.explore_with_odometry(&world.route_through(&places).unwrap(), &noise, 1).unwrap()
+    }
+
+    /// By later and earlier visit: what it costs at least if both are to one place, the way lengthened travel by travel; nothing if they
+    /// cannot be.
+    fn prices(experience: &Experience, measured: &Measured, sameness: Sameness) -> Vec<Vec<Option<f64>>> {
+        let visits = experience.observations.len() + 1;
+        let mut prices = vec![Vec::new(); visits];
+        for earlier in 0..visits {
+            let mut way: Option<Way> = None;
+            for (later, prices) in prices.iter_mut().enumerate().skip(earlier + 1) {
+                let step = Way::of(&measured.travels[later - 1]);
+                let longer = way.map_or(step, |way| way.then(&step));
+                way = Some(longer);
+                let turns: Vec<f64> = turns(later, earlier, experience, measured).collect();
+                let half_chi2 = match sameness {
+                    Sameness::Isomorphic if turns.is_empty() => None,
+                    Sameness::Isomorphic => Some(longer.least_half_chi2(turns.into_iter())),
+                    Sameness::AnyReading => Some(longer.half_chi2_of_position()),
+                };
+                let trusted = if longer.is_sound() { trust(longer.turn_variance) } else { 0.0 };
+                prices.push(half_chi2.map(|half_chi2| trusted * half_chi2));
+            }
+        }
+        prices
+    }
+
+    /// Whatever is passed over, the counts are those of the definition with all pairs of visits.
     #[test]
-    fn intervals_are_taken_away() {
-        let ranges = |bits: u32| -> Vec<Range<usize>> {
-            let is_in = |at: usize| at < 12 && bits >> at & 1 == 1;
-            let starts = (0..12).filter(|&at| is_in(at) && (at == 0 || !is_in(at - 1)));
-            starts.map(|start| start..(start..13).find(|&at| !is_in(at)).unwrap_or(12)).collect()
-        };
-        for (a, b) in (0..4096).step_by(7).flat_map(|a| (0..4096).step_by(61).map(move |b| (a, b))) {
-            let mut left = without(&ranges(a), &ranges(b));
-            let mut joined: Vec<Range<usize>> = Vec::new();
-            for part in left.drain(..) {
-                match joined.last_mut() {
-                    Some(last) if last.end == part.start => last.end = part.end,
-                    _ => joined.push(part),
+    fn counts_are_those_of_all_pairs() {
+        for (columns, travels, errors) in [(4, 100, 1.0), (4, 100, 6.0), (70, 150, 1.0), (150, 140, 8.0)] {
+            let experience = Experience::from(&laps(columns, travels, errors));
+            let mut measured = Measured::default();
+            measured.observe(&experience).unwrap();
+            for sameness in [Sameness::Isomorphic, Sameness::AnyReading] {
+                let mut outlook = Outlook::new(true, sameness);
+                let watch = Watch::start(Limits::default(), &Arc::default());
+                assert_eq!(outlook.observe(&experience, Some(&measured), &watch), None);
+                let prices = prices(&experience, &measured, sameness);
+                for (&threshold, needs) in outlook.thresholds.iter().zip(&outlook.needs) {
+                    for explained in (0..=travels).step_by(9) {
+                        let mut known: Vec<usize> = (0..=explained).collect();
+                        for visit in explained + 1..=travels {
+                            let is_near =
+                                |&earlier: &usize| prices[visit][earlier].is_some_and(|p| p <= threshold);
+                            if !known.iter().any(is_near) {
+                                known.push(visit);
+                            }
+                        }
+                        let (count, expected) = (needs.counted(explained), known.len() - explained - 1);
+                        assert_eq!(count as usize, expected, "{columns}, {threshold}, {explained}");
+                    }
                 }
             }
-            assert_eq!(joined, ranges(a & !b), "{a:b} without {b:b}");
         }
     }
 }

@@ -1,7 +1,9 @@
 //! A model applied to one experience: what each travel costs, and what those to come cost at least.
 
+use std::collections::BTreeMap;
+
 use hssh_causal::Odometry;
-use hssh_topology::{Observation, SimplicityFloor, StarId, TopologicalMap};
+use hssh_topology::{Look, Observation, SimplicityFloor, TopologicalMap};
 
 use crate::experience::Experience;
 use crate::limits::{StopReason, Watch};
@@ -9,6 +11,9 @@ use crate::measured::Measured;
 use crate::posterior::cost::Cost;
 use crate::posterior::model::{Corridor, MapPrior, Metrical, PlacePrior, PosteriorModel};
 use crate::posterior::outlook::{Outlook, Sameness};
+
+/// Factors are multiplied up to this before the logarithm is taken.
+const MOST_FACTORS: f64 = 1e290;
 
 /// What each travel may cost. It grows with the experience.
 #[derive(Clone, Debug)]
@@ -25,8 +30,8 @@ pub(crate) struct Tariff {
     discount: Vec<f64>,
     /// By travel.
     branching: Vec<Branching>,
-    /// How often each star was seen, but on the last visit.
-    seen: Vec<u32>,
+    /// How many gateways were seen that look alike, but on the last visit.
+    seen: BTreeMap<Look, u32>,
 }
 
 /// What one travel does to the number of branches.
@@ -48,7 +53,7 @@ impl Tariff {
             least_new_place: vec![0.0],
             discount: vec![0.0],
             branching: Vec::new(),
-            seen: Vec::new(),
+            seen: BTreeMap::new(),
         }
     }
 
@@ -108,15 +113,11 @@ impl Tariff {
     fn count_branches(&mut self, experience: &Experience) {
         let Experience { catalog, observations, .. } = experience;
         for (travel, now) in observations.iter().enumerate().skip(self.branching.len()) {
-            let known = experience.star_of(travel).index();
-            self.seen.resize(self.seen.len().max(catalog.stars().len()), 0);
-            self.seen[known] += 1;
-            let alike = |star: StarId| {
-                let gateways = catalog.star(star).gateways();
-                gateways.filter(|&olp| catalog.matches(now.star, now.entry, star, olp)).count() as u32
-            };
-            let often = self.seen.iter().enumerate().filter(|(_, often)| **often > 0);
-            let alike = often.map(|(star, often)| often * alike(StarId::new(star as u32))).sum();
+            let known = experience.star_of(travel);
+            for gateway in catalog.star(known).gateways() {
+                *self.seen.entry(catalog.look(known, gateway)).or_default() += 1;
+            }
+            let alike = self.seen.get(&catalog.look(now.star, now.entry)).copied().unwrap_or(0);
             let gateways = catalog.star(now.star).gateways().count() as u32;
             self.branching.push(Branching { alike, gained: gateways.saturating_sub(2) });
         }
@@ -184,13 +185,16 @@ impl Tariff {
         if self.model.prior == MapPrior::Choices {
             return 0.0;
         }
-        let mut pending = pending;
-        let mut log = 0.0;
+        let (mut pending, mut log, mut product) = (pending, 0.0, 1.0);
         for rest in &self.branching[explained..] {
-            log += (1.0 + f64::from(rest.alike.min(pending.saturating_sub(1)))).ln();
+            product *= 1.0 + f64::from(rest.alike.min(pending.saturating_sub(1)));
             pending += rest.gained;
+            if product > MOST_FACTORS {
+                log += f64::ln(product);
+                product = 1.0;
+            }
         }
-        log
+        log + product.ln()
     }
 }
 

@@ -1,13 +1,19 @@
-//! The way between two visits by odometry alone, lengthened travel by travel: all pairs of visits have one, so that it
-//! is numbers and no matrices.
+//! The way between two visits by odometry alone, composed of shorter ones: very many are, so that it is numbers and no
+//! matrices.
 
-use hssh_metrics::{Covariance, Pose};
+use hssh_metrics::{Covariance, Pose, wrap_angle};
 use nalgebra::{Matrix3, matrix};
 
 use crate::measured::MeasuredTravel;
 
 /// The largest condition number of a covariance beyond which double precision does not tell two visits apart.
 const WORST_CONDITION: f64 = 1e14;
+
+/// The determinant of a covariance, in parts of the square of its diagonal's largest entry, from which on its inverse is good for a bound.
+pub(super) const LEAST_DETERMINANT: f64 = 1e-9;
+
+/// By how much a bound has to exceed what it is compared with, so that rounding cannot matter.
+pub(super) const MARGIN: f64 = 1.01;
 
 /// Where one visit is in the frame of an earlier one, and how well that is known.
 #[derive(Clone, Copy, Debug)]
@@ -23,33 +29,51 @@ pub(super) struct Way {
 }
 
 impl Way {
+    /// A way with the covariance of its position, xx, xy and yy, that of the position with the turn, and the variance of the turn.
+    pub(super) fn new(mean: Pose, [xx, xy, yy]: [f64; 3], [xt, yt]: [f64; 2], turn_variance: f64) -> Self {
+        Way { mean, xx, xy, xt, yy, yt, turn_variance }
+    }
+
     /// A single travel.
     pub(super) fn of(travel: &MeasuredTravel) -> Self {
         let c = travel.covariance.matrix();
         Way { mean: travel.pose, xx: c.m11, xy: c.m12, xt: c.m13, yy: c.m22, yt: c.m23, turn_variance: c.m33 }
     }
 
-    /// One travel more, with the covariance to first order, the errors being independent; `None` if double precision
-    /// does not bear the result.
-    pub(super) fn then(&self, step: &Way) -> Option<Way> {
+    /// This way and then another one, with the covariance to first order, the errors being independent.
+    pub(super) fn then(&self, next: &Way) -> Way {
         let Way { mean, xx, xy, xt, yy, yt, turn_variance: tt } = *self;
         let (s, c) = mean.theta.sin_cos();
-        let (x, y) = (c * step.mean.x - s * step.mean.y, s * step.mean.x + c * step.mean.y);
+        let (x, y) = (c * next.mean.x - s * next.mean.y, s * next.mean.x + c * next.mean.y);
+        let next_turned = next.turned(mean.theta);
         // J C Jᵀ with J = [1 0 −y; 0 1 x; 0 0 1], and R C Rᵀ.
-        let longer = Way {
-            mean: Pose::new(mean.x + x, mean.y + y, mean.theta + step.mean.theta),
-            xx: xx - 2.0 * y * xt + y * y * tt + c * c * step.xx - 2.0 * c * s * step.xy + s * s * step.yy,
-            xy: xy + x * xt - y * yt - x * y * tt + c * s * (step.xx - step.yy) + (c * c - s * s) * step.xy,
-            yy: yy + 2.0 * x * yt + x * x * tt + s * s * step.xx + 2.0 * c * s * step.xy + c * c * step.yy,
-            xt: xt - y * tt + c * step.xt - s * step.yt,
-            yt: yt + x * tt + s * step.xt + c * step.yt,
-            turn_variance: tt + step.turn_variance,
-        };
-        longer.is_sound().then_some(longer)
+        Way {
+            mean: Pose::new(mean.x + x, mean.y + y, mean.theta + next.mean.theta),
+            xx: xx - 2.0 * y * xt + y * y * tt + next_turned.xx,
+            xy: xy + x * xt - y * yt - x * y * tt + next_turned.xy,
+            yy: yy + 2.0 * x * yt + x * x * tt + next_turned.yy,
+            xt: xt - y * tt + next_turned.xt,
+            yt: yt + x * tt + next_turned.yt,
+            turn_variance: tt + next.turn_variance,
+        }
     }
 
-    /// Whether the covariance is positive definite and can be inverted.
-    fn is_sound(&self) -> bool {
+    /// The same way, its covariance along the axes of a frame in which the present one is turned by that angle. Its mean stays as it is.
+    pub(super) fn turned(&self, theta: f64) -> Way {
+        let Way { xx, xy, xt, yy, yt, .. } = *self;
+        let (s, c) = theta.sin_cos();
+        Way {
+            xx: c * c * xx - 2.0 * c * s * xy + s * s * yy,
+            xy: c * s * (xx - yy) + (c * c - s * s) * xy,
+            yy: s * s * xx + 2.0 * c * s * xy + c * c * yy,
+            xt: c * xt - s * yt,
+            yt: s * xt + c * yt,
+            ..*self
+        }
+    }
+
+    /// Whether the covariance is positive definite and can be inverted: whether double precision tells the two visits apart.
+    pub(super) fn is_sound(&self) -> bool {
         let Way { xx, xy, xt, yy, yt, turn_variance: tt, .. } = *self;
         // The covariance of the position where the turn is known, and from it the diagonal of the inverse.
         let (a, b, d) = (xx - xt * xt / tt, xy - xt * yt / tt, yy - yt * yt / tt);
@@ -62,10 +86,14 @@ impl Way {
         largest <= WORST_CONDITION
     }
 
-    /// Whether χ²/2 of a way that ends where it began is certainly more than this, whatever the turn.
-    pub(super) fn certainly_exceeds(&self, half_chi2: f64) -> bool {
-        let Pose { x, y, .. } = self.mean;
-        0.5 * (x * x + y * y) > (1.0 + 1e-6) * half_chi2 * (self.xx + self.yy)
+    /// The covariance of the position: xx, xy, yy.
+    pub(super) fn position(&self) -> [f64; 3] {
+        [self.xx, self.xy, self.yy]
+    }
+
+    /// The covariances of the position with the turn.
+    pub(super) fn with_turn(&self) -> [f64; 2] {
+        [self.xt, self.yt]
     }
 
     /// χ²/2 of a way that ends where it began, in a frame turned by `turn`, in which every angle of `turns` is one; the
@@ -79,6 +107,24 @@ impl Way {
             0.5 * off.dot(&(information.matrix() * off))
         };
         turns.map(half_chi2).fold(f64::INFINITY, f64::min)
+    }
+
+    /// Whether χ²/2 of a way that ends where it began is certainly more than this, in a frame turned by any angle of `turns`. Less is computed than for the
+    /// value.
+    pub(super) fn certainly_exceeds(&self, mut turns: impl Iterator<Item = f64>, half_chi2: f64) -> bool {
+        let Way { mean, xx, xy, xt, yy, yt, turn_variance: tt } = *self;
+        // The covariance of the position where the turn is known.
+        let (a, b, d) = (xx - xt * xt / tt, xy - xt * yt / tt, yy - yt * yt / tt);
+        let (determinant, largest) = (a * d - b * b, a.max(d));
+        if determinant.is_nan() || determinant <= LEAST_DETERMINANT * largest * largest {
+            return false;
+        }
+        turns.all(|turn| {
+            let off = wrap_angle(mean.theta - turn);
+            let (x, y) = (mean.x - xt / tt * off, mean.y - yt / tt * off);
+            let chi2 = off * off / tt + (d * x * x - 2.0 * b * x * y + a * y * y) / determinant;
+            0.5 * chi2 > MARGIN * half_chi2
+        })
     }
 
     /// χ²/2 of a way that ends where it began, in whatever frame: the least over all turns.
@@ -114,14 +160,16 @@ mod tests {
         };
         let (mut way, mut compound) = (Way::of(&travel(0)), uncertain(0));
         for index in 1..30 {
-            way = way.then(&Way::of(&travel(index))).unwrap();
+            way = way.then(&Way::of(&travel(index)));
+            assert!(way.is_sound());
             compound = compound.compose(&uncertain(index)).unwrap();
             let expected = compound.covariance.matrix();
             assert!((way.covariance() - expected).amax() <= 1e-12 * expected.amax(), "{index}");
             let off = way.mean.between(compound.mean);
             assert!(off.translation().norm() < 1e-9 && off.theta.abs() < 1e-12);
-            let least = way.least_half_chi2([0.3, -1.0].into_iter());
-            assert!(!way.certainly_exceeds(least), "{index}");
+            let turns = || [0.3, -1.0].into_iter();
+            let least = way.least_half_chi2(turns());
+            assert!(!way.certainly_exceeds(turns(), least) && way.certainly_exceeds(turns(), 0.98 * least));
             assert!(way.half_chi2_of_position() <= least * (1.0 + 1e-9), "{index}");
         }
     }
@@ -131,6 +179,6 @@ mod tests {
     fn what_cannot_be_inverted_is_no_way() {
         let covariance = Covariance::from_standard_deviations(1e-4, 1e-4, 1e-2).unwrap();
         let step = Way::of(&MeasuredTravel { pose: Pose::new(1e6, 0.0, 0.0), covariance });
-        assert!(step.then(&step).is_none());
+        assert!(step.is_sound() && !step.then(&step).is_sound());
     }
 }

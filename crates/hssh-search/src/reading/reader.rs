@@ -186,7 +186,7 @@ fn maps(engine: &Engine<ByReading>) -> Vec<ReadMap> {
 
 fn read_map(state: &State, map: &TopologicalMap, cost: Cost) -> ReadMap {
     let chart = &state.account.chart;
-    let is_laid_out = state.layout.poses.iter().any(|&pose| pose != Pose::IDENTITY);
+    let is_laid_out = state.layout.poses.iter().any(|pose| pose != Pose::IDENTITY);
     let mut poses: Vec<Option<Pose>> =
         chart.places().map(|place| state.located(place).filter(|_| is_laid_out)).collect();
     if is_laid_out {

@@ -94,7 +94,7 @@ impl State {
         let account = Account::begin(experience.catalog.star(start));
         State {
             account,
-            layout: Layout { poses: vec![Pose::IDENTITY], chi2: 0.0 },
+            layout: Layout::first(),
             places: vec![Some(PoseId(0))],
             bearings: sights.of_star(start).iter().copied().map(Some).collect(),
             legs: Vec::new(),
@@ -194,7 +194,7 @@ impl State {
     /// The pose graph of the reported places, and what travels from a place to itself add to χ².
     pub(crate) fn graph(&self, travels: &[MeasuredTravel]) -> Result<(PoseGraph, f64), UncertaintyError> {
         let mut graph = PoseGraph::new();
-        for &pose in &self.layout.poses {
+        for pose in self.layout.poses.iter() {
             graph.add_pose(pose);
         }
         let mut loops = 0.0;

@@ -3,7 +3,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use hssh_causal::Exploration;
-use hssh_search::{Experience, Mapper};
+use hssh_search::{Cursor, Experience, Mapper, NodeId};
 use hssh_topology::{
     Contradiction, Discovery, End, MapSketch, OlpName, Passability, PlaceId, Replay, Sign, Star, StarEnd,
     replay, violations,
@@ -206,5 +206,21 @@ fn true_map(exploration: &Exploration, world: &hssh_world::World, route: &hssh_w
     MapSketch {
         links: ordered(crossed.map(|(travel, pair)| (end(pair[0], travel.exit), end(pair[1], travel.entry)))),
         places: order.iter().map(|&place| world.place(place).star.clone()).collect(),
+    }
+}
+
+/// A cursor that goes from node to node has the visits of each as one has that comes from the root.
+#[test]
+fn visits_are_carried_along() {
+    let world = hssh_world::grid(3, 3, 8.0).unwrap();
+    let exploration = world.explore(&world.route_through(&hssh_world::snake(3, 3)).unwrap()).unwrap();
+    let mapper = breadth_first(&exploration, planar());
+    let (tree, experience) = (mapper.tree(), mapper.experience());
+    let mut going = Cursor::new(experience);
+    for step in 0..tree.len().min(500) {
+        let node = NodeId::new((step * 7919 % tree.len()) as u32);
+        let fresh = Cursor::new(experience).visits(node, tree, experience);
+        assert_eq!(going.visits(node, tree, experience), fresh);
+        assert_eq!(fresh.len(), tree.depth(node) + 1);
     }
 }

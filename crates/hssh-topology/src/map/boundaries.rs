@@ -5,7 +5,7 @@
 //! it, right of it, left of it. They only grow, so that a link adds to them what it newly reaches.
 
 use std::collections::BTreeSet;
-use std::ops::Range;
+use std::ops::{AddAssign, Range};
 
 use crate::ids::{PathId, PlaceId};
 
@@ -32,15 +32,15 @@ pub(super) struct Boundaries {
 
 /// Pairs ⟨path, place⟩, summed over the paths that are not absorbed.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
-struct Sums {
+pub(super) struct Sums {
     /// Off the path, on exactly one side.
-    determined: u64,
+    pub(super) determined: u64,
     /// Off the path on both sides, or on the path and beside it.
-    contradictory: u64,
+    pub(super) contradictory: u64,
 }
 
 /// A state to come back to.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Mark {
     changes: usize,
     sums: Sums,
@@ -69,10 +69,6 @@ impl Boundaries {
         self.words[start + place.index() / 64] ^= 1 << (place.index() % 64);
     }
 
-    pub(super) fn is_on(&self, path: PathId, place: PlaceId) -> bool {
-        self.contains(path, Set::On, place)
-    }
-
     /// The set of places on a path, as words.
     pub(super) fn on(&self, path: PathId) -> &[u64] {
         &self.words[self.range(path, Set::On)]
@@ -85,12 +81,9 @@ impl Boundaries {
             .map(|set| places().filter(|&place| self.contains(path, set, place)).collect())
     }
 
-    pub(super) fn determined(&self) -> u64 {
-        self.sums.determined
-    }
-
-    pub(super) fn contradictory(&self) -> u64 {
-        self.sums.contradictory
+    /// What the relations add up to.
+    pub(super) fn sums(&self) -> Sums {
+        self.sums
     }
 
     /// How many words a set has.
@@ -129,6 +122,28 @@ impl Boundaries {
             self.words[set as usize * self.stride + word as usize] = old;
         }
         self.sums = mark.sums;
+    }
+
+    /// Sets of so many words for so many paths, all of them empty.
+    pub(super) fn blank(paths: usize, words: usize) -> Self {
+        Boundaries { stride: words, words: vec![0; paths * SETS * words], ..Boundaries::default() }
+    }
+
+    /// The words of one set.
+    pub(super) fn set_mut(&mut self, path: PathId, set: Set) -> &mut [u64] {
+        let range = self.range(path, set);
+        &mut self.words[range]
+    }
+
+    /// Counts the sums anew. Paths that are absorbed have empty sets.
+    pub(super) fn sum_up(&mut self) {
+        self.sums = Sums::default();
+        for sets in self.words.chunks_exact(SETS * self.stride) {
+            for word in 0..self.stride {
+                let triple = [0, 1, 2].map(|set| sets[set * self.stride + word]);
+                self.sums.replace(&[], triple);
+            }
+        }
     }
 
     fn write(&mut self, path: PathId, set: Set, word: usize, value: u64) {
@@ -182,6 +197,13 @@ impl Boundaries {
             places += joined[0].count_ones();
         }
         places
+    }
+}
+
+impl AddAssign for Sums {
+    fn add_assign(&mut self, other: Sums) {
+        self.determined += other.determined;
+        self.contradictory += other.contradictory;
     }
 }
 

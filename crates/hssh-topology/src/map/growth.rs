@@ -2,12 +2,12 @@
 
 use std::ops::Range;
 
-use super::boundaries::Set;
+use super::boundaries::Boundaries;
 use super::record::{
     Absorbed, Change, Direction, Joined, OlpRecord, PathRecord, PathState, PlaceRecord, Tally,
 };
 use super::topological_map::{PendingGateway, TopologicalMap};
-use crate::ids::{Dart, MapOlp, Olp, PathId, PlaceId, StarId};
+use crate::ids::{Dart, MapOlp, PathId, PlaceId, StarId};
 use crate::star::Star;
 
 impl TopologicalMap {
@@ -17,7 +17,9 @@ impl TopologicalMap {
         let first = self.olps.len() as u32;
         self.history.push(Change::Place { tally: self.tally });
         self.places.push(PlaceRecord { star: id, first });
-        self.boundaries.make_room(self.places.len());
+        if let Some(boundaries) = &mut self.boundaries {
+            boundaries.make_room(self.places.len());
+        }
 
         let mut dart = self.graph.dart_count();
         self.graph.add_vertex(star.gateways().count() as u32);
@@ -48,7 +50,9 @@ impl TopologicalMap {
         let path = PathId::new(self.paths.len() as u32);
         self.paths.push(PathRecord::single(pending_ends));
         self.live_paths.push();
-        self.boundaries.push_path(place);
+        if let Some(boundaries) = &mut self.boundaries {
+            boundaries.push_path(place);
+        }
         self.tally.paths += 1;
         self.tally.incidences += 1;
         path
@@ -62,8 +66,10 @@ impl TopologicalMap {
         debug_assert!(a != b, "a link has two ends");
         debug_assert!(self.is_pending(a) && self.is_pending(b), "a stale pending gateway");
         let tally = self.tally;
-        let boundaries = self.boundaries.mark();
-        if self.path(a) == self.path(b) {
+        let boundaries = self.boundaries.as_ref().map(Boundaries::mark).unwrap_or_default();
+        if self.boundaries.is_none() {
+            // They are counted anew when somebody asks.
+        } else if self.path(a) == self.path(b) {
             self.see_path_from_itself(a);
         } else {
             self.see_path_beyond(a, self.path(b));
@@ -88,7 +94,9 @@ impl TopologicalMap {
                 self.olps[a.index()].link = a;
                 self.olps[b.index()].link = b;
                 self.part_paths(joined);
-                self.boundaries.restore(boundaries);
+                if let Some(carried) = &mut self.boundaries {
+                    carried.restore(boundaries);
+                }
                 self.graph.unlink(link);
                 self.tally = tally;
             }
@@ -103,20 +111,22 @@ impl TopologicalMap {
         self.olps.truncate(first as usize);
         (paths..self.paths.len()).for_each(|_| self.live_paths.pop());
         self.paths.truncate(paths);
-        self.boundaries.truncate(paths);
+        if let Some(boundaries) = &mut self.boundaries {
+            boundaries.truncate(paths);
+        }
         self.tally = tally;
     }
 
     /// The paths that cross the path ending in `end` see, beyond `end`, the places of `path`.
     pub(super) fn see_path_beyond(&mut self, end: MapOlp, path: PathId) {
-        let words = self.boundaries.span(path);
+        let Some(words) = self.boundaries.as_ref().map(|boundaries| boundaries.span(path)) else { return };
         self.walk_inward(end, |map, toward| map.see_along(toward, path, &words));
     }
 
     /// A path becomes circular: going either way from any of its places one comes by all of them.
     pub(super) fn see_path_from_itself(&mut self, end: MapOlp) {
         let path = self.path(end);
-        let words = self.boundaries.span(path);
+        let Some(words) = self.boundaries.as_ref().map(|boundaries| boundaries.span(path)) else { return };
         self.walk_inward(end, |map, toward| {
             map.see_along(toward, path, &words);
             map.see_along(map.opposite(toward), path, &words);
@@ -126,18 +136,10 @@ impl TopologicalMap {
     /// Whoever leaves the place of `exit` by `exit` now comes by the places of `reached`: they are
     /// right or left of every other path through that place. The places are in those words of the set.
     fn see_along(&mut self, exit: MapOlp, reached: PathId, words: &Range<usize>) {
-        let PlaceRecord { first, .. } = self.places[self.place(exit).index()];
-        let local = |olp: MapOlp| Olp::new(olp.number() - first);
-        let olps = self.olps_of(self.place(exit));
-        let degree = olps.len() as u32;
-        for downstream in olps {
-            let record = self.olps[downstream.index()];
-            let is_other_path = exit != downstream && exit != record.opposite;
-            if record.direction == Direction::Downstream && is_other_path {
-                let clockwise = |to: MapOlp| local(downstream).turn_to(local(to), degree);
-                let is_right = clockwise(exit) < clockwise(record.opposite);
-                let side = if is_right { Set::Right } else { Set::Left };
-                self.boundaries.gain(record.path, side, reached, words.clone());
+        for downstream in self.olps_of(self.place(exit)) {
+            let side = self.side_of(exit, downstream);
+            if let (Some(side), Some(boundaries)) = (side, &mut self.boundaries) {
+                boundaries.gain(self.olps[downstream.index()].path, side, reached, words.clone());
             }
         }
     }
@@ -157,10 +159,14 @@ impl TopologicalMap {
         let (at, kept) = if record(a).local_paths >= record(b).local_paths { (b, a) } else { (a, b) };
         let (into, from) = (self.path(kept), self.path(at));
         let flipped = self.direction(kept) == self.direction(at);
+        let shared = if self.boundaries.is_some() { 0 } else { self.shared_places(at, into) };
         self.rename_path(at, into, flipped);
 
         let (before, lost) = (self.paths[into.index()], self.paths[from.index()]);
-        let places = self.boundaries.absorb(into, from, flipped);
+        let places = match &mut self.boundaries {
+            Some(boundaries) => boundaries.absorb(into, from, flipped),
+            None => before.places + lost.places - shared,
+        };
         let joined = PathRecord {
             local_paths: before.local_paths + lost.local_paths,
             places,
@@ -187,6 +193,18 @@ impl TopologicalMap {
             self.live_paths.rejoin(from.number());
             self.rename_path(at, from, flipped);
         }
+    }
+
+    /// How many places of the path that ends in `end` lie on another one, too.
+    fn shared_places(&mut self, end: MapOlp, other: PathId) -> u32 {
+        let (path, mut shared) = (self.path(end), 0);
+        self.walk_inward(end, |map, toward| {
+            let on = |path: PathId| map.olps_of(map.place(toward)).find(|&olp| map.path(olp) == path);
+            // A path that meets a place twice counts it once.
+            let is_first = on(path).is_some_and(|first| first == toward || first == map.opposite(toward));
+            shared += u32::from(is_first && on(other).is_some());
+        });
+        shared
     }
 
     /// Gives every oriented local path of the path that ends in `end` another path and, if asked,

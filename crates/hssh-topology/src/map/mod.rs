@@ -1,5 +1,6 @@
 //! Topological maps: places, the links between their gateways, and the paths these form (section 2.3).
 
+mod anew;
 mod boundaries;
 mod growth;
 mod path;

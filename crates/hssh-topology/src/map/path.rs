@@ -86,6 +86,11 @@ impl TopologicalMap {
 
     /// The places on a path.
     pub fn places_of_path(&self, path: PathId) -> impl Iterator<Item = PlaceId> + '_ {
-        self.places().filter(move |&place| self.boundaries.is_on(path, place))
+        self.places().filter(move |&place| self.is_on(path, place))
+    }
+
+    /// Whether a place lies on a path.
+    pub(super) fn is_on(&self, path: PathId, place: PlaceId) -> bool {
+        self.olps_of(place).any(|olp| self.path(olp) == path)
     }
 }

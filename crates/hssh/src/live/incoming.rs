@@ -3,6 +3,7 @@
 use std::io::{self, BufRead, BufReader, Cursor, Read};
 use std::path::Path;
 
+use hssh::file::FileError;
 use hssh::kind::FileKind;
 use hssh::pipeline::LaserChoice;
 use hssh_io::{JsonLines, KnownLaser, next_line};
@@ -36,7 +37,7 @@ pub(crate) struct Source {
 impl Source {
     /// Opens a pipe or a file, or standard input if the path is `-`, and waits for its first line.
     pub(crate) fn open(file: &Path, laser: &LaserChoice, topics: &TopicArguments) -> Result<Self, Failure> {
-        let unreadable = |error| Failure::Read { file: file.to_owned(), error };
+        let unreadable = |error| FileError::Read { file: file.to_owned(), error };
         let mut content: Box<dyn BufRead + Send> = if file.as_os_str() == "-" {
             Box::new(BufReader::new(io::stdin()))
         } else {
@@ -56,7 +57,7 @@ impl Source {
             kind => {
                 let wanted =
                     "messages of a CARMEN log, scans as lines of JSON, or an MCAP file, as they come";
-                return Err(Failure::Kind { file: file.to_owned(), kind, wanted });
+                return Err(FileError::Kind { file: file.to_owned(), kind, wanted }.into());
             }
         };
         Ok(Source { content: Box::new(Cursor::new(beginning).chain(content)), incoming })
@@ -70,7 +71,7 @@ impl Source {
     ) -> Result<(), Failure> {
         match self.incoming {
             Incoming::Messages(_) => {
-                let failed = |error| Failure::ReadLog { file: file.to_owned(), error: Box::new(error) };
+                let failed = |error| FileError::Log { file: file.to_owned(), error: Box::new(error) };
                 let mut reader = LogReader::new(self.content).map_err(failed)?;
                 loop {
                     let mut message = reader.next_message().map_err(failed)?;
@@ -86,7 +87,7 @@ impl Source {
                 }
             }
             Incoming::Lines(_) => {
-                let failed = |error| Failure::ReadJsonLines { file: file.to_owned(), error: Box::new(error) };
+                let failed = |error| FileError::JsonLines { file: file.to_owned(), error: Box::new(error) };
                 let mut content = self.content;
                 let mut number = 1;
                 while let Some(line) = next_line(&mut content, number).map_err(failed)? {
@@ -108,7 +109,7 @@ impl Source {
                         }
                     });
                 });
-                read.map_err(|error| Failure::ReadBag { file: file.to_owned(), error: Box::new(error) })
+                Ok(read.map_err(|error| FileError::Bag { file: file.to_owned(), error: Box::new(error) })?)
             }
         }
     }
@@ -116,13 +117,13 @@ impl Source {
 
 #[cfg(feature = "bags")]
 fn bag(_: &Path, laser: &LaserChoice, topics: &TopicArguments) -> Result<Incoming, Failure> {
-    let options = crate::input::recording_options(laser, topics);
+    let options = hssh::file::recording_options(laser, &topics.choice());
     Ok(Incoming::Bag(hssh_io::GrowingBag::new(options)))
 }
 
 #[cfg(not(feature = "bags"))]
 fn bag(file: &Path, _: &LaserChoice, _: &TopicArguments) -> Result<Incoming, Failure> {
-    Err(Failure::WithoutBags { file: file.to_owned(), kind: FileKind::Recording("an MCAP file") })
+    Err(FileError::WithoutBags { file: file.to_owned(), kind: FileKind::Recording("an MCAP file") }.into())
 }
 
 impl Incoming {
@@ -147,20 +148,20 @@ impl Incoming {
     }
 
     /// The log of all that has come.
-    pub(crate) fn into_log(self, file: &Path) -> Result<LaserLog, Failure> {
+    pub(crate) fn into_log(self, file: &Path) -> Result<LaserLog, FileError> {
         let file = file.to_owned();
         match self {
             Incoming::Messages(log) => {
-                log.into_log().map_err(|error| Failure::ReadLog { file, error: Box::new(error) })
+                log.into_log().map_err(|error| FileError::Log { file, error: Box::new(error) })
             }
             Incoming::Lines(lines) => {
-                lines.into_log().map_err(|error| Failure::ReadJsonLines { file, error: Box::new(error) })
+                lines.into_log().map_err(|error| FileError::JsonLines { file, error: Box::new(error) })
             }
             #[cfg(feature = "bags")]
             Incoming::Bag(bag) => bag
                 .read()
                 .map(|read| read.log)
-                .map_err(|error| Failure::ReadBag { file, error: Box::new(error) }),
+                .map_err(|error| FileError::Bag { file, error: Box::new(error) }),
         }
     }
 }

@@ -3,7 +3,7 @@
 use hssh_metrics::Pose;
 use hssh_search::{Goal, Limits, Mapper, RankedMap, StopReason, Visit};
 
-use super::engine::{Task, measured, model_so_far};
+use super::engine::{Task, measured};
 use super::error::{PipelineError, SearchFailure};
 use super::options::SearchMethod;
 use crate::answer::MapMeasure;
@@ -45,7 +45,7 @@ impl Task<'_> {
         }
         let limits = self.options.limits.of_search();
         let most_nodes = limits.nodes.map_or(most_nodes, |nodes| nodes.min(most_nodes));
-        let builder = self.configured(|| model_so_far(self.options), Goal::AnyMap)?;
+        let builder = self.mapper_builder_for(Goal::AnyMap)?;
         let start = &self.exploration.star_types()[self.exploration.start().index()];
         let mut mapper = builder
             .limits(Limits { nodes: Some(most_nodes), ..limits })

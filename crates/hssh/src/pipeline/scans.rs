@@ -1,14 +1,14 @@
 //! The scans of a log by their number among all that it has, those that cannot be used among them.
 
-use hssh_local::{LaserLog, LogWarning, SurveyWarning};
+use hssh_local::{LaserLog, LogPosition, LogWarning, SurveyWarning};
 use hssh_metrics::Pose;
 
 use crate::answer::{AnswerWarning, Spot, WarningKind};
 
-/// The lines with scans that cannot be used.
-fn unusable(log: &LaserLog) -> impl Iterator<Item = u64> + '_ {
+/// Where the scans stand that cannot be used.
+fn unusable(log: &LaserLog) -> impl Iterator<Item = LogPosition> + '_ {
     log.warnings.iter().filter_map(|warning| match warning {
-        LogWarning::Message { line, kind, .. } if kind.contains("LASER") => Some(*line),
+        LogWarning::Message { at, kind, .. } if kind.contains("LASER") => Some(*at),
         _ => None,
     })
 }
@@ -20,8 +20,8 @@ pub(super) fn all(log: &LaserLog) -> u64 {
 
 /// The number of a used scan among all of a log.
 pub(super) fn number(log: &LaserLog, used: usize) -> u64 {
-    let line = log.scans[used].line;
-    used as u64 + unusable(log).filter(|&unusable| unusable < line).count() as u64
+    let at = log.scans[used].at;
+    used as u64 + unusable(log).filter(|&unusable| unusable < at).count() as u64
 }
 
 /// When every scan was taken and where: those that cannot be used have the pose of the scan before, and their number for a
@@ -63,29 +63,27 @@ pub(super) fn first_loss(log: &LaserLog) -> Option<String> {
 pub(super) fn warnings(log: &LaserLog) -> Vec<AnswerWarning> {
     let mut warnings = Vec::new();
     for warning in &log.warnings {
-        let (kind, line) = match warning {
-            LogWarning::Message { line, .. } => (WarningKind::MessageLeftOut, Some(*line)),
-            LogWarning::BreaksOff { line, .. } => (WarningKind::BreaksOff, Some(*line)),
-            LogWarning::OddBeams { line, .. } => (WarningKind::BeamsWithoutRange, Some(*line)),
-            LogWarning::Jump { line, .. } => (WarningKind::OdometryJump, Some(*line)),
-            LogWarning::RangeLimit { .. } => (WarningKind::RangeLimit, None),
-            LogWarning::LimitDoubted { .. } => (WarningKind::RangeLimitDoubted, None),
-            LogWarning::OdometryScale { .. } => (WarningKind::Questionable, None),
+        let kind = match warning {
+            LogWarning::Message { .. } => WarningKind::MessageLeftOut,
+            LogWarning::BreaksOff { .. } => WarningKind::BreaksOff,
+            LogWarning::OddBeams { .. } => WarningKind::BeamsWithoutRange,
+            LogWarning::Jump { .. } => WarningKind::OdometryJump,
+            LogWarning::RangeLimit { .. } => WarningKind::RangeLimit,
+            LogWarning::LimitDoubted { .. } => WarningKind::RangeLimitDoubted,
+            LogWarning::OdometryScale { .. } => WarningKind::Questionable,
             LogWarning::View { .. } | LogWarning::Facing { .. } | LogWarning::Mirrored => {
-                (WarningKind::LaserView, None)
+                WarningKind::LaserView
             }
-            LogWarning::LaserPose { .. } => (WarningKind::LaserPose, None),
-            LogWarning::Remark { .. } => (WarningKind::Recording, None),
-            LogWarning::ScansAlone => (WarningKind::NoOdometry, None),
+            LogWarning::LaserPose { .. } => WarningKind::LaserPose,
+            LogWarning::Remark { .. } => WarningKind::Recording,
+            LogWarning::ScansAlone => WarningKind::NoOdometry,
         };
-        match line {
-            Some(scan) if matches!(warning, LogWarning::Jump { is_text: false, .. }) => {
-                let spot = Spot::Scan(scan.saturating_sub(1));
-                AnswerWarning::record(&mut warnings, kind, spot, || warning.to_string());
-            }
-            Some(line) => {
-                AnswerWarning::record(&mut warnings, kind, Spot::Line(line), || warning.to_string());
-            }
+        let spot = warning.position().map(|at| match at {
+            LogPosition::Line(line) => Spot::Line(line),
+            LogPosition::Scan(scan) => Spot::Scan(scan.saturating_sub(1)),
+        });
+        match spot {
+            Some(spot) => AnswerWarning::record(&mut warnings, kind, spot, || warning.to_string()),
             None => warnings.push(AnswerWarning::once(kind, warning.to_string())),
         }
     }

@@ -4,6 +4,8 @@
 //! that is mounted otherwise.
 
 use std::fmt::Write as _;
+use std::process::Output;
+use std::sync::atomic::{AtomicUsize, Ordering};
 
 use super::common::{hssh, root, scratch, text};
 
@@ -180,6 +182,47 @@ fn logs(ring: &str) -> Vec<Fault> {
     ]
 }
 
+/// Once round a square of corridors, and one travel more: turns and variances as they are written.
+fn square(turn: &str, variances: &str) -> String {
+    let corners = [
+        ("south-west", "\"0+ @90\", \"1+ @0\", \"0- @-90 closed\", \"1- @180 closed\""),
+        ("south-east", "\"0+ @90\", \"1+ @0 closed\", \"0- @-90 closed\", \"1- @180\""),
+        ("north-east", "\"0+ @90 closed\", \"1+ @0 closed\", \"0- @-90\", \"1- @180\""),
+        ("north-west", "\"0+ @90 closed\", \"1+ @0\", \"0- @-90\", \"1- @180 closed\""),
+    ];
+    let ways = [("1+", "1-", 8, 0), ("0+", "0-", 0, 8), ("1-", "1+", -8, 0), ("0-", "0+", 0, -8)];
+    let mut text = "(stars: {".to_owned();
+    for (name, ends) in corners {
+        let _ = write!(text, "\"{name}\": [{ends}], ");
+    }
+    text += "}, start: \"south-west\", travels: [";
+    for travel in 0..5 {
+        let (exit, entry, x, y) = ways[travel % 4];
+        let star = corners[(travel + 1) % 4].0;
+        let odometry = format!("(x: {x}, y: {y}, theta: {turn}, covariance: [{variances}])");
+        let _ =
+            write!(text, "(exit: \"{exit}\", entry: \"{entry}\", star: \"{star}\", odometry: {odometry}), ");
+    }
+    text + "])"
+}
+
+fn explorations() -> Vec<Fault> {
+    let (map, usual) = ("map FILE", "0.04, 0.04, 0.001");
+    let right = "posterior with proof: proved the best map (5 of 5 travels explained)";
+    let doubtful = "DOUBTFUL: travel 1: theta is";
+    vec![
+        fault("turns in radians", map, square("0.01", usual), 0, right),
+        fault("turns of a right angle in degrees", map, square("90", usual), 0, doubtful),
+        fault("the same to the other side", map, square("-90", usual), 0, doubtful),
+        fault("half turns in degrees", map, square("180", usual), 0, doubtful),
+        fault("small turns in degrees", map, square("2.5", usual), 0, doubtful),
+        fault("a turn beyond all angles", map, square("1e308", usual), 2, "as no robot measures"),
+        fault("square degrees", map, square("0", "0.04, 0.04, 4"), 0, "square degrees"),
+        fault("square decimetres", map, square("0", "400, 400, 0.001"), 0, "square metres"),
+        fault("a variance below none", map, square("0", "-0.04, 0.04, 0.001"), 2, "not positive definite"),
+    ]
+}
+
 fn maps() -> Vec<Fault> {
     let floor = root().join("fixtures/grids/floor.png");
     let yaml = |resolution: &str, rest: &str| {
@@ -190,11 +233,38 @@ fn maps() -> Vec<Fault> {
     };
     vec![
         fault("negate in a word", "stars FILE", yaml("0.1", "negate: false\n"), 0, "2 regions, 5 places"),
+        fault("negate in capitals", "stars FILE", yaml("0.1", "negate: False\n"), 0, "2 regions, 5 places"),
         fault("negate of two", "stars FILE", yaml("0.1", "negate: 2\n"), 2, "negate"),
         fault("a resolution of none", "stars FILE", yaml("0", "negate: 0\n"), 2, "resolution"),
         fault("a resolution of .nan", "stars FILE", yaml(".nan", "negate: 0\n"), 2, "resolution"),
         fault("a cell of a kilometre", "stars FILE", yaml("1e3", "negate: 0\n"), 2, "from 0.001 to 100"),
     ]
+}
+
+/// The file of each input, and what the program makes of it. Several are run at once: a log takes seconds.
+fn outputs(faults: &[Fault]) -> Vec<(String, Output)> {
+    let next = AtomicUsize::new(0);
+    let run = || {
+        let mut done = Vec::new();
+        loop {
+            let index = next.fetch_add(1, Ordering::Relaxed);
+            let Some(fault) = faults.get(index) else { return done };
+            let file = scratch("faults").join(format!("{index}.input"));
+            std::fs::write(&file, &fault.input).unwrap();
+            let file = file.to_string_lossy().into_owned();
+            let arguments: Vec<&str> =
+                fault.arguments.split(' ').map(|word| if word == "FILE" { &file } else { word }).collect();
+            let output = hssh(&arguments);
+            done.push((index, (file, output)));
+        }
+    };
+    let threads = std::thread::available_parallelism().map_or(1, std::num::NonZero::get);
+    let mut done: Vec<_> = std::thread::scope(|scope| {
+        let workers: Vec<_> = (0..threads).map(|_| scope.spawn(run)).collect();
+        workers.into_iter().flat_map(|worker| worker.join().unwrap()).collect()
+    });
+    done.sort_by_key(|(index, _)| *index);
+    done.into_iter().map(|(_, output)| output).collect()
 }
 
 /// Prints the table, and every line of it is right.
@@ -205,13 +275,9 @@ fn what_is_wrong_with_an_input_is_said_first() {
     assert_eq!(hssh(&["simulate", "--floor", "ring", "-o", &name]).status.code(), Some(0));
     let ring = std::fs::read_to_string(&log).unwrap();
     let mut wrong = String::new();
-    for (index, fault) in graphs().into_iter().chain(logs(&ring)).chain(maps()).enumerate() {
-        let file = scratch("faults").join(format!("{index}.input"));
-        std::fs::write(&file, &fault.input).unwrap();
-        let file = file.to_string_lossy().into_owned();
-        let arguments: Vec<&str> =
-            fault.arguments.split(' ').map(|word| if word == "FILE" { &file } else { word }).collect();
-        let output = hssh(&arguments);
+    let faults: Vec<Fault> =
+        graphs().into_iter().chain(logs(&ring)).chain(explorations()).chain(maps()).collect();
+    for (fault, (file, output)) in faults.iter().zip(outputs(&faults)) {
         let said = text(if fault.exit == 2 { &output.stderr } else { &output.stdout });
         let first = said.lines().next().unwrap_or_default();
         let is_right = output.status.code() == Some(fault.exit) && first.contains(fault.says);

@@ -3,6 +3,7 @@
 
 mod causal;
 mod common;
+mod export;
 mod faults;
 mod graph;
 mod kinds;
@@ -11,6 +12,7 @@ mod log;
 mod outputs;
 mod program;
 mod readings;
+mod rooms;
 mod signals;
 mod simulate;
 mod stars;

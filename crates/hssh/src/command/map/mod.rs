@@ -6,6 +6,7 @@ use hssh::answer::Listing;
 use hssh::pipeline::{Input, Mapped, MappingOptions, SearchMethod, SurveyedLog, map};
 
 use crate::arguments::MapArguments;
+use crate::command::export::write_maps;
 use crate::command::page;
 use crate::command::stages::draw_survey;
 use crate::failure::{Failure, Status};
@@ -52,7 +53,10 @@ pub(crate) fn answer(
         (Some(surveyed), Some(folder)) => draw_survey(&surveyed.log, &surveyed.survey, folder)?,
         (Some(_), None) => {}
     }
-    let mapped = searched(input, options)?;
+    let mut mapped = searched(input, options)?;
+    if arguments.with_trajectory {
+        mapped.carry_trajectories(input);
+    }
     show(&mapped);
     // An answer that took long is printed all the same.
     let no_such_rank = arguments
@@ -85,6 +89,7 @@ pub(crate) fn answer(
         written.note(page::write(file, input, &mapped, options, arguments.rank));
     }
     draw::draw(arguments, input, &mapped, &mut written)?;
+    write_maps(&arguments.file, &arguments.files, arguments.rank, (input, &mapped), &mut written);
     written.done()?;
     Ok(Status::of(&mapped.answer))
 }
@@ -102,14 +107,15 @@ fn refuse_what_needs_a_log(arguments: &MapArguments) -> Result<(), Failure> {
     let is_asked = arguments.grid.is_some()
         || arguments.trajectory.is_some()
         || arguments.likeness.is_some()
+        || arguments.with_trajectory
         || arguments.debug_dir.is_some();
     let laser = &arguments.laser;
     if is_asked
         || !arguments.places.choice().is_usual()
         || !laser.choice().is_usual()
-        || laser.topics.is_given()
+        || laser.topics.choice().is_given()
     {
-        let help = "--grid, --trajectory, --likeness, --debug-dir, --fov, --laser-pose, --scan, --odom, --base-frame and what counts as a place need a laser log: an exploration has no scans";
+        let help = "--grid, --trajectory, --likeness, --debug-dir, --with-trajectory, --fov, --laser-pose, --scan, --odom, --base-frame and what counts as a place need a laser log: an exploration has no scans";
         return Err(Failure::Usage(help.to_owned()));
     }
     Ok(())

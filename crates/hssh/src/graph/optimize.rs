@@ -8,73 +8,78 @@ use hssh_metrics::{
     solve_robustly,
 };
 
-use crate::arguments::{GraphArguments, KernelOption, MethodOption, StartOption};
-use crate::failure::Failure;
-use crate::progress::is_interrupted;
+use super::error::GraphFailure;
+use super::options::{GraphOptions, KernelChoice, MethodChoice, StartChoice, USUAL_THRESHOLD, WrongClosures};
 
 /// Sweeps of relaxation if no other number is asked for: one costs as much as a few edges, and it takes many.
 const MAX_SWEEPS: usize = 10_000;
 
 /// The poses found, and how.
-pub(super) struct Optimum {
-    pub(super) poses: Vec<Pose>,
+#[derive(Clone, PartialEq, Debug)]
+pub struct Optimum {
+    /// The poses, by their ids.
+    pub poses: Vec<Pose>,
     /// By which factor each edge counts; 0 if it was refused.
-    pub(super) weights: Vec<f64>,
+    pub weights: Vec<f64>,
     /// χ² of all edges where the search began.
-    pub(super) initial_chi2: f64,
+    pub initial_chi2: f64,
     /// χ² of the edges that were not refused.
-    pub(super) chi2: f64,
+    pub chi2: f64,
     /// What was minimized instead of χ², if anything.
-    pub(super) robust_cost: Option<f64>,
+    pub robust_cost: Option<f64>,
     /// How often whatever is `counted` was done.
-    pub(super) steps: usize,
-    pub(super) counted: &'static str,
+    pub steps: usize,
+    /// `linear system`, `sweep` or `round`.
+    pub counted: &'static str,
     /// Why it ended, in words.
-    pub(super) ending: &'static str,
+    pub ending: &'static str,
     /// Whether it ended as it should.
-    pub(super) finished: bool,
+    pub finished: bool,
 }
 
 /// Minimizes as the options say; every component of the graph must have an anchor.
-pub(super) fn optimize(options: &GraphArguments, file: &GraphFile) -> Result<Optimum, Failure> {
+pub(super) fn minimize(options: &GraphOptions, file: &GraphFile) -> Result<Optimum, GraphFailure> {
     let solver = Options {
         method: method(options.method),
         max_iterations: options.max_iterations.unwrap_or(Options::default().max_iterations),
         tolerance: options.tolerance,
-        interrupted: is_interrupted,
+        interrupted: options.interrupted,
     };
-    if options.method == MethodOption::Relaxation && (options.graduated || options.robust.is_some()) {
-        let help = "relaxation weighs all edges alike: choose another --method with --robust and --graduated";
-        return Err(Failure::Usage(help.to_owned()));
+    if options.method == MethodChoice::Relaxation && options.wrong != WrongClosures::None {
+        return Err(GraphFailure::WeighedRelaxation);
     }
     let graph = started(options, file)?;
     refuse_floating(&graph, file)?;
-    if let Some(kernel) = options.robust {
-        let (kernel, is_suspect) = (robust_kernel(kernel, options.deviations), suspects(&graph, file));
-        let kernel = |edge: &Edge| is_suspect(edge).then_some(kernel);
-        let found = robustly(&graph, kernel, &solver)?;
-        let is_free = options.start == StartOption::Best;
-        return if is_free {
-            better_from_screening(found, &graph, kernel, &is_suspect, &solver)
-        } else {
-            Ok(found)
-        };
+    match options.wrong {
+        WrongClosures::Weighed { kernel, deviations } => {
+            let (kernel, is_suspect) = (robust_kernel(kernel, deviations), suspects(&graph, file));
+            let kernel = |edge: &Edge| is_suspect(edge).then_some(kernel);
+            let found = robustly(&graph, kernel, &solver)?;
+            match options.start {
+                StartChoice::Best => better_from_screening(found, &graph, kernel, &is_suspect, &solver),
+                _ => Ok(found),
+            }
+        }
+        WrongClosures::Refused { threshold } => screened(&graph, suspects(&graph, file), threshold, &solver),
+        WrongClosures::None if options.method == MethodChoice::Relaxation => {
+            let max_iterations = options.max_iterations.unwrap_or(MAX_SWEEPS);
+            relaxed(&graph, &Options { max_iterations, ..solver })
+        }
+        WrongClosures::None if !file.doubtful.is_empty() => {
+            let doubtful: BTreeSet<_> =
+                file.doubtful.iter().map(|&index| ends(&graph.edges()[index])).collect();
+            let is_suspect = |edge: &Edge| doubtful.contains(&ends(edge));
+            screened(&graph, is_suspect, USUAL_THRESHOLD, &solver)
+        }
+        WrongClosures::None => plainly(&graph, options.start, &solver),
     }
-    if options.graduated {
-        return screened(&graph, suspects(&graph, file), options.threshold, &solver);
-    }
-    if options.method == MethodOption::Relaxation {
-        let max_iterations = options.max_iterations.unwrap_or(MAX_SWEEPS);
-        return relaxed(&graph, &Options { max_iterations, ..solver });
-    }
-    if !file.doubtful.is_empty() {
-        let doubtful: BTreeSet<_> = file.doubtful.iter().map(|&index| ends(&graph.edges()[index])).collect();
-        let is_suspect = |edge: &Edge| doubtful.contains(&ends(edge));
-        return screened(&graph, is_suspect, options.threshold, &solver);
-    }
-    let solution = match options.start {
-        StartOption::Best => solve_from_anywhere(&graph, &solver)?,
-        _ => solve(&graph, &solver)?,
+}
+
+/// By least squares alone.
+fn plainly(graph: &PoseGraph, start: StartChoice, solver: &Options) -> Result<Optimum, GraphFailure> {
+    let solution = match start {
+        StartChoice::Best => solve_from_anywhere(graph, solver)?,
+        _ => solve(graph, solver)?,
     };
     Ok(Optimum {
         weights: vec![1.0; graph.edges().len()],
@@ -89,34 +94,32 @@ pub(super) fn optimize(options: &GraphArguments, file: &GraphFile) -> Result<Opt
     })
 }
 
-fn method(option: MethodOption) -> Method {
+fn method(option: MethodChoice) -> Method {
     match option {
-        MethodOption::LinearizeOnce => Method::LinearizeOnce,
-        MethodOption::GaussNewton => Method::GaussNewton,
-        MethodOption::LevenbergMarquardt => Method::LevenbergMarquardt,
-        MethodOption::Safeguarded | MethodOption::Relaxation => Method::Safeguarded,
+        MethodChoice::LinearizeOnce => Method::LinearizeOnce,
+        MethodChoice::GaussNewton => Method::GaussNewton,
+        MethodChoice::LevenbergMarquardt => Method::LevenbergMarquardt,
+        MethodChoice::Safeguarded | MethodChoice::Relaxation => Method::Safeguarded,
     }
 }
 
 /// The graph at the poses to start from.
-fn started(options: &GraphArguments, file: &GraphFile) -> Result<PoseGraph, Failure> {
+fn started(options: &GraphOptions, file: &GraphFile) -> Result<PoseGraph, GraphFailure> {
     let mut graph = file.graph.clone();
-    let resists_outliers = options.robust.is_some() || options.graduated || !file.doubtful.is_empty();
+    let resists_outliers = options.wrong != WrongClosures::None || !file.doubtful.is_empty();
     let poses = match options.start {
-        StartOption::Best if resists_outliers => odometry_poses(&graph)?,
-        StartOption::Best if options.method != MethodOption::Relaxation => return Ok(graph),
-        StartOption::Best | StartOption::Chordal => chordal_poses(&graph)?,
-        StartOption::Odometry => odometry_poses(&graph)?,
-        StartOption::File => match file.unplaced.first() {
+        StartChoice::Best if resists_outliers => odometry_poses(&graph)?,
+        StartChoice::Best if options.method != MethodChoice::Relaxation => return Ok(graph),
+        StartChoice::Best | StartChoice::Chordal => chordal_poses(&graph)?,
+        StartChoice::Odometry => odometry_poses(&graph)?,
+        StartChoice::File => match file.unplaced.first() {
             None => return Ok(graph),
             Some(first) => {
-                return Err(Failure::Usage(format!(
-                    "the file does not say where {} of its {} poses are, pose {} being the first: --start chordal \
-                     and --start odometry need no poses",
-                    file.unplaced.len(),
-                    graph.poses().len(),
-                    file.label(*first).unwrap_or_default()
-                )));
+                return Err(GraphFailure::Unplaced {
+                    unplaced: file.unplaced.len(),
+                    poses: graph.poses().len(),
+                    first: file.label(*first).unwrap_or_default(),
+                });
             }
         },
     };
@@ -124,7 +127,7 @@ fn started(options: &GraphArguments, file: &GraphFile) -> Result<PoseGraph, Fail
     Ok(graph)
 }
 
-fn relaxed(graph: &PoseGraph, options: &Options) -> Result<Optimum, Failure> {
+fn relaxed(graph: &PoseGraph, options: &Options) -> Result<Optimum, GraphFailure> {
     let relaxation = relax(graph, options)?;
     Ok(Optimum {
         weights: vec![1.0; graph.edges().len()],
@@ -133,7 +136,7 @@ fn relaxed(graph: &PoseGraph, options: &Options) -> Result<Optimum, Failure> {
         robust_cost: None,
         steps: relaxation.sweeps,
         counted: "sweep",
-        ending: if relaxation.converged { CONVERGED } else { unfinished() },
+        ending: if relaxation.converged { CONVERGED } else { unfinished(options) },
         finished: relaxation.converged,
         poses: relaxation.poses,
     })
@@ -143,11 +146,11 @@ fn ends(edge: &Edge) -> (PoseId, PoseId) {
     (edge.from, edge.to)
 }
 
-fn robust_kernel(kernel: KernelOption, deviations: f64) -> Kernel {
+fn robust_kernel(kernel: KernelChoice, deviations: f64) -> Kernel {
     match kernel {
-        KernelOption::Huber => Kernel::Huber(deviations),
-        KernelOption::Cauchy => Kernel::Cauchy(deviations),
-        KernelOption::Dcs => Kernel::DynamicCovarianceScaling(deviations),
+        KernelChoice::Huber => Kernel::Huber(deviations),
+        KernelChoice::Cauchy => Kernel::Cauchy(deviations),
+        KernelChoice::Dcs => Kernel::DynamicCovarianceScaling(deviations),
     }
 }
 
@@ -155,7 +158,7 @@ fn robustly(
     graph: &PoseGraph,
     kernel: impl Fn(&Edge) -> Option<Kernel>,
     solver: &Options,
-) -> Result<Optimum, Failure> {
+) -> Result<Optimum, GraphFailure> {
     let solution = solve_robustly(graph, kernel, solver)?;
     Ok(Optimum {
         initial_chi2: graph.chi2(),
@@ -163,7 +166,7 @@ fn robustly(
         robust_cost: Some(solution.cost),
         steps: solution.rounds,
         counted: "round",
-        ending: if solution.converged { CONVERGED } else { unfinished() },
+        ending: if solution.converged { CONVERGED } else { unfinished(solver) },
         finished: solution.converged,
         poses: solution.poses,
         weights: solution.weights,
@@ -178,7 +181,7 @@ fn better_from_screening(
     kernel: impl Fn(&Edge) -> Option<Kernel>,
     is_suspect: impl Fn(&Edge) -> bool,
     solver: &Options,
-) -> Result<Optimum, Failure> {
+) -> Result<Optimum, GraphFailure> {
     let Ok(screening) = screen_closures(graph, is_suspect, USUAL_THRESHOLD, solver) else { return Ok(found) };
     let mut anew = graph.clone();
     anew.set_poses(screening.solution.poses).expect("there is one pose for each");
@@ -190,15 +193,12 @@ fn better_from_screening(
     Ok(if is_better { Optimum { initial_chi2: found.initial_chi2, ..other } } else { found })
 }
 
-/// The χ² beyond which one correct closure in a hundred is.
-const USUAL_THRESHOLD: f64 = 11.34;
-
 fn screened(
     graph: &PoseGraph,
     is_suspect: impl Fn(&Edge) -> bool,
     threshold: f64,
     solver: &Options,
-) -> Result<Optimum, Failure> {
+) -> Result<Optimum, GraphFailure> {
     let screening = screen_closures(graph, is_suspect, threshold, solver)?;
     let Solution { poses, chi2, stop, .. } = screening.solution;
     Ok(Optimum {
@@ -227,7 +227,7 @@ fn suspects(graph: &PoseGraph, file: &GraphFile) -> impl Fn(&Edge) -> bool + use
 }
 
 /// Refuses a graph of which something could move without any measurement noticing.
-fn refuse_floating(graph: &PoseGraph, file: &GraphFile) -> Result<(), Failure> {
+fn refuse_floating(graph: &PoseGraph, file: &GraphFile) -> Result<(), GraphFailure> {
     let mut placed = graph.clone();
     // Where poses are given by edges alone, all are at the origin, and much looks as if it could move.
     placed.set_poses(odometry_poses(graph)?).expect("there is one pose for each");
@@ -239,10 +239,7 @@ fn refuse_floating(graph: &PoseGraph, file: &GraphFile) -> Result<(), Failure> {
     }
     let shown = labels.iter().take(8).cloned().collect::<Vec<_>>().join(", ");
     let more = if labels.len() > 8 { format!(" and {} more", labels.len() - 8) } else { String::new() };
-    Err(Failure::Usage(format!(
-        "the graph is not determined: the poses {shown}{more} could move without any measurement noticing, for some \
-         directions have an information of zero\nhelp: measure what is missing, or hold poses with FIX"
-    )))
+    Err(GraphFailure::Floating { poses: shown + &more })
 }
 
 const CONVERGED: &str = "converged";
@@ -250,8 +247,8 @@ const INTERRUPTED: &str = "interrupted: these are the poses reached";
 const NOT_YET: &str = "not converged yet: --max-iterations allows more";
 
 /// Why what goes round by round did not come to its end.
-fn unfinished() -> &'static str {
-    if is_interrupted() { INTERRUPTED } else { NOT_YET }
+fn unfinished(options: &Options) -> &'static str {
+    if (options.interrupted)() { INTERRUPTED } else { NOT_YET }
 }
 
 fn ending(stop: StopReason) -> &'static str {

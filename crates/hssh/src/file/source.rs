@@ -5,9 +5,9 @@ use std::io::{self, BufRead, BufReader, Cursor, Read};
 use std::path::{Path, PathBuf};
 
 use flate2::bufread::MultiGzDecoder;
-use hssh::kind::FileKind;
 
-use crate::failure::Failure;
+use super::error::FileError;
+use crate::kind::FileKind;
 
 /// So much of a file is looked at to say what it is.
 const LOOKED_AT: u64 = 1 << 16;
@@ -20,7 +20,7 @@ const UTF8_MARK: &[u8] = b"\xEF\xBB\xBF";
 const UTF16_MARKS: [&[u8]; 2] = [b"\xFF\xFE", b"\xFE\xFF"];
 
 /// What is in a file, to be read from its beginning.
-pub(crate) struct Source {
+pub struct Source {
     file: PathBuf,
     kind: FileKind,
     /// Whether the content is that of the file as it is.
@@ -31,8 +31,11 @@ pub(crate) struct Source {
 
 impl Source {
     /// Opens a file; `-` is standard input.
-    pub(crate) fn open(file: &Path) -> Result<Self, Failure> {
-        let unreadable = |error| Failure::Read { file: file.to_owned(), error };
+    ///
+    /// # Errors
+    /// If it cannot be read, or is compressed by something else than gzip.
+    pub fn open(file: &Path) -> Result<Self, FileError> {
+        let unreadable = |error| FileError::Read { file: file.to_owned(), error };
         if file.is_dir() {
             let kind = FileKind::Recording("a folder, perhaps a ROS 2 bag");
             return Ok(Source {
@@ -58,7 +61,7 @@ impl Source {
         let rest: Box<dyn BufRead> = match read {
             Ok(_) => bytes,
             Err(error) if beginning.is_empty() => {
-                return Err(Failure::Damaged { file: file.to_owned(), error });
+                return Err(FileError::Damaged { file: file.to_owned(), error });
             }
             Err(error) => Box::new(BufReader::new(Broken(Some(error)))),
         };
@@ -82,7 +85,7 @@ impl Source {
             kind = FileKind::Recording("a bag packed by zstd");
         }
         if let FileKind::Compressed(..) = kind {
-            return Err(Failure::Compressed { file: file.to_owned(), kind });
+            return Err(FileError::Compressed { file: file.to_owned(), kind });
         }
         Ok(Source {
             file: file.to_owned(),
@@ -93,33 +96,39 @@ impl Source {
     }
 
     /// What it holds.
-    pub(crate) fn kind(&self) -> &FileKind {
+    #[must_use]
+    pub fn kind(&self) -> &FileKind {
         &self.kind
     }
 
     /// Whether the content is that of the file as it is: neither unpacked nor from standard input.
     #[cfg(feature = "bags")]
-    pub(crate) fn is_plain(&self) -> bool {
+    pub(super) fn is_plain(&self) -> bool {
         self.is_plain
     }
 
-    /// The failure of a command that wanted something else.
-    pub(crate) fn unfit(&self, wanted: &'static str) -> Failure {
-        Failure::Kind { file: self.file.clone(), kind: self.kind.clone(), wanted }
+    /// The error for whoever wanted something else.
+    #[must_use]
+    pub fn unfit(&self, wanted: &'static str) -> FileError {
+        FileError::Kind { file: self.file.clone(), kind: self.kind.clone(), wanted }
     }
 
     /// The content, to be read once.
-    pub(crate) fn into_content(self) -> Box<dyn BufRead> {
+    #[must_use]
+    pub fn into_content(self) -> Box<dyn BufRead> {
         self.content
     }
 
     /// The whole content.
-    pub(crate) fn into_bytes(self) -> Result<Vec<u8>, Failure> {
+    ///
+    /// # Errors
+    /// If it cannot be read to its end, or is longer than any text that is read as a whole.
+    pub fn into_bytes(self) -> Result<Vec<u8>, FileError> {
         let mut bytes = Vec::new();
         let read = self.content.take(LARGEST_TEXT + 1).read_to_end(&mut bytes);
-        read.map_err(|error| Failure::Read { file: self.file.clone(), error })?;
+        read.map_err(|error| FileError::Read { file: self.file.clone(), error })?;
         if bytes.len() as u64 > LARGEST_TEXT {
-            return Err(Failure::TooLong { file: self.file, most: LARGEST_TEXT >> 20 });
+            return Err(FileError::TooLong { file: self.file, most: LARGEST_TEXT >> 20 });
         }
         Ok(bytes)
     }
