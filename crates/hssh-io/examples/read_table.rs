@@ -3,7 +3,7 @@
 
 use std::io::{BufRead, BufReader};
 
-use hssh_io::{TableOptions, is_table, read_table};
+use hssh_io::{KnownLaser, is_table, read_table};
 
 const TABLE: &str = "\
 # angle_min: -1.5708
@@ -19,7 +19,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         Some(file) => Box::new(BufReader::new(std::fs::File::open(file)?)),
         None => Box::new(TABLE.as_bytes()),
     };
-    let log = read_table(source, &TableOptions::default())?;
+    let log = read_table(source, &KnownLaser::default())?;
     for scan in &log.scans {
         println!("{:?} s at ({:.1}, {:.1})", scan.time, scan.odometry.x, scan.odometry.y);
     }

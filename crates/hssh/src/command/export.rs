@@ -37,7 +37,11 @@ pub(crate) fn run(arguments: &ExportArguments) -> Result<Status, Failure> {
             let account = PlacesAccount::from_json(&text(file, source)?).map_err(|error| unread(&error))?;
             export_places(&account, *kind, spacing)
         }
-        _ => return Err(source.unfit("an answer, which `hssh map --json` or `hssh stars --json` prints")),
+        _ => {
+            return Err(source
+                .unfit("an answer, which `hssh map --json` or `hssh stars --json` prints")
+                .into());
+        }
     };
     let exported = exported.map_err(refused)?;
     warn(file, *kind, &exported);
