@@ -1,11 +1,12 @@
 //! Everything that has to pass before a change is taken; `.ci/run` calls it.
 
 use std::error::Error;
+use std::path::PathBuf;
 use std::time::Instant;
 
 use xshell::{Shell, cmd};
 
-use crate::{root, tidy};
+use crate::{page, python, root, tidy};
 
 /// `cargo xtask ci`.
 pub(crate) fn run() -> Result<(), Box<dyn Error>> {
@@ -18,9 +19,13 @@ pub(crate) fn run() -> Result<(), Box<dyn Error>> {
         let lean = ["--package", "hssh", "--package", "hssh-metrics", "--no-default-features"];
         Ok(cmd!(shell, "cargo clippy {lean...} --all-targets -- -D warnings").run()?)
     })?;
+    step("lints of the Python package", || python::lint(&shell))?;
     // The same random cases in every run: a change is refused for what it breaks, not for a case that was broken before.
     let tests = cmd!(shell, "cargo test --workspace").env("PROPTEST_RNG_SEED", "2005");
     step("tests", || Ok(tests.run()?))?;
+    step("page", || page::run(None))?;
+    step("examples", examples)?;
+    step("python", || python::test(&shell))?;
     step("documentation", || {
         Ok(cmd!(shell, "cargo doc --workspace --no-deps").env("RUSTDOCFLAGS", "-Dwarnings").run()?)
     })?;
@@ -34,6 +39,39 @@ pub(crate) fn run() -> Result<(), Box<dyn Error>> {
     }
     println!("== everything passed");
     Ok(())
+}
+
+/// Runs every example of the crates that others depend on, as the tests have built it; each checks what it finds.
+fn examples() -> Result<(), Box<dyn Error>> {
+    const CRATES: [&str; 7] = [
+        "hssh-topology",
+        "hssh-causal",
+        "hssh-metrics",
+        "hssh-local",
+        "hssh-io",
+        "hssh-search",
+        "hssh-verify",
+    ];
+    let target =
+        std::env::var_os("CARGO_TARGET_DIR").map_or_else(|| root::root().join("target"), PathBuf::from);
+    let shell = Shell::new()?;
+    for name in CRATES {
+        let mut sources = shell.read_dir(root::root().join("crates").join(name).join("examples"))?;
+        sources.sort();
+        for source in sources {
+            let example = target.join("debug/examples").join(source.file_stem().unwrap_or_default());
+            cmd!(shell, "{example}").quiet().ignore_stdout().run()?;
+        }
+    }
+    Ok(())
+}
+
+/// `cargo xtask python`.
+pub(crate) fn python() -> Result<(), Box<dyn Error>> {
+    let shell = Shell::new()?;
+    shell.change_dir(root::root());
+    step("lints of the Python package", || python::lint(&shell))?;
+    step("python", || python::test(&shell))
 }
 
 /// Runs one step under its name, and says how long it took.

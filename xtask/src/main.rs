@@ -5,6 +5,8 @@ mod ci;
 mod experiments;
 mod faults;
 mod layers;
+mod page;
+mod python;
 mod root;
 mod tidy;
 
@@ -16,6 +18,8 @@ use std::process::ExitCode;
 const HELP: &str = "Checks:
     tidy    Checks what lints cannot: module sentences, file lengths, words, layers.
     faults  Runs the program over faulty inputs and prints what it says of each.
+    page    Clicks through the pages of `hssh map --html` in headless Chromium; with a folder, screenshots go there.
+    python  Installs the Python package and runs its tests.
     ci      Everything that has to pass before a change is taken.
 
 Experiments, benchmarks and measurements:
@@ -37,8 +41,11 @@ fn run(arguments: &[OsString]) -> Result<ExitCode, Box<dyn Error>> {
     match words[..] {
         ["tidy"] => tidy::run()?,
         ["ci"] => ci::run()?,
+        ["python"] => ci::python()?,
         ["faults"] => faults::run()?,
-        ["tidy" | "ci" | "faults", unexpected, ..] => {
+        ["page"] => page::run(None)?,
+        ["page", folder] => page::run(Some(folder))?,
+        ["tidy" | "ci" | "faults" | "python", unexpected, ..] | ["page", _, unexpected, ..] => {
             return Err(format!("unexpected argument `{unexpected}`").into());
         }
         [] | ["help" | "-h" | "--help"] => {

@@ -11,7 +11,7 @@ use crate::root;
 const LONGEST: usize = 600;
 
 /// Where files are looked at.
-const FOLDERS: [&str; 7] = ["crates", "docs", "fixtures", "fuzz", "theory", "xtask", ".ci"];
+const FOLDERS: [&str; 8] = ["crates", "docs", "fixtures", "fuzz", "python", "theory", "xtask", ".ci"];
 
 /// What no file may say: notes to oneself, and folders of one machine. Written in two halves, so
 /// that this file does not say them.
@@ -57,7 +57,25 @@ fn problems() -> Result<Vec<String>, Box<dyn Error>> {
         problems.extend(of_file(&name, &text));
     }
     problems.extend(layers::violations()?);
+    let manifest = |name| fs::read_to_string(root::root().join(name));
+    let (workspace, python) = (manifest("Cargo.toml")?, manifest("python/Cargo.toml")?);
+    for kind in ["rust", "clippy"] {
+        let own = lints(&python, &format!("[lints.{kind}]"));
+        if lints(&workspace, &format!("[workspace.lints.{kind}]")) != own || own.is_empty() {
+            problems.push(format!("python/Cargo.toml: its lints of {kind} are not those of the workspace"));
+        }
+    }
     Ok(problems)
+}
+
+/// The lines of a section of a manifest.
+fn lints(manifest: &str, section: &str) -> Vec<String> {
+    let lines = manifest.lines().skip_while(|line| *line != section).skip(1);
+    lines
+        .take_while(|line| !line.starts_with('['))
+        .filter(|line| !line.is_empty())
+        .map(str::to_owned)
+        .collect()
 }
 
 /// All files below a folder that are not made by tools.

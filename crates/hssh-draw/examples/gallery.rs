@@ -22,7 +22,8 @@ fn main() -> Result<(), Failure> {
     let write = |name: &str, text: String| std::fs::write(directory.join(name), text);
     let schematic = |title: &str, map: &TopologicalMap, current, star_names| -> Result<String, Failure> {
         let drawing = Drawing::schematic(map, &Bearings::none())?;
-        let options = MapOptions { title: Some(title.to_owned()), current, star_names, measure: true };
+        let options =
+            MapOptions { title: Some(title.to_owned()), current, star_names, ..MapOptions::default() };
         Ok(draw_map(map, &drawing, &options))
     };
     let letters = |count: usize| (0..count).map(|star| char::from(b'A' + star as u8).to_string()).collect();

@@ -35,5 +35,5 @@ mod tree;
 pub use drawing::{Bearings, Drawing, DrawingError};
 pub use graph::{EdgeKind, PoseGraphOptions, draw_pose_graph};
 pub use grid::{GridPicture, RegionPicture, TOLD_WAY, TRUE_WAY, draw_grid};
-pub use map::{MapOptions, draw_map, map_to_dot};
+pub use map::{BuildingPicture, MapOptions, draw_map, map_to_dot};
 pub use tree::{Fate, SearchTree, TreeError, TreeNode, TreeOptions, draw_tree, tree_to_dot};

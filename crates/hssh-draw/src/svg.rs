@@ -100,6 +100,17 @@ impl Canvas {
         self.line_of_text(&format!(r#"<polygon points="{}" {attributes}/>"#, corners.join(" ")));
     }
 
+    /// An area within rings, by the even-odd rule if the attributes say so.
+    pub(crate) fn area(&mut self, rings: &[Vec<Point>], attributes: &str) {
+        for &corner in rings.iter().flatten() {
+            self.make_room(corner, 1.0);
+        }
+        let corner = |point: &Point| format!("{} {}", number(point.x), number(point.y));
+        let ring = |ring: &Vec<Point>| format!("M{}Z", ring.iter().map(corner).collect::<Vec<_>>().join("L"));
+        let path: String = rings.iter().map(ring).collect();
+        self.line_of_text(&format!(r#"<path d="{path}" {attributes}/>"#));
+    }
+
     /// Cubic Bézier curves, each beginning where the one before ends.
     pub(crate) fn curve(&mut self, cubics: &[Cubic], attributes: &str) {
         for point in cubics.iter().flat_map(|cubic| along(cubic, 12)) {

@@ -4,8 +4,10 @@
     pip install opencv-python-headless numpy
     python3 rooms.py DATA/gridmap/rooms [--hssh target/release/hssh]
 
-The baseline is a watershed of the distance transform, flooded from its cores. With --hssh the program's own
-`--export labels=` images are scored in the same way: this scorer shares no code with the one behind `cargo xtask grids`.
+The baselines, made of OpenCV's functions after the survey of Bormann et al. (2016): a watershed of the distance transform,
+flooded from what is wider than a wide door; the cores of the distance transform at the threshold that gives the most rooms,
+grown over the rest; and the Voronoi diagram, cut at its critical points. With --hssh the program's own `--export labels=`
+images are scored in the same way: this scorer shares no code with the one behind `cargo xtask grids`.
 """
 import argparse
 import pathlib
@@ -84,6 +86,53 @@ def grown(cores, free, distance):
     return np.where((free == 1) & (regions > 0), regions, 0)
 
 
+def distance_cores(image):
+    """Cores at the threshold with the most of them that are large enough to be rooms, grown over the rest."""
+    free = (image >= 206).astype(np.uint8)
+    distance = cv2.distanceTransform(free, cv2.DIST_L2, 5)
+    best, most = None, 0
+    for threshold in np.arange(min(distance.max() - 1, 3 / RESOLUTION), 0, -1):
+        count, labels, stats, _ = cv2.connectedComponentsWithStats((distance > threshold).astype(np.uint8))
+        large = np.flatnonzero(stats[1:, cv2.CC_STAT_AREA] * RESOLUTION**2 >= 0.35) + 1
+        if len(large) > most:
+            most, best = len(large), np.where(np.isin(labels, large), labels, 0)
+    return grown(best, free, distance)
+
+
+def voronoi(image):
+    """Free space cut across the Voronoi diagram wherever its clearance is least within half a metre; crumbs join a neighbor."""
+    free = (image >= 206).astype(np.uint8)
+    distance, sites = cv2.distanceTransformWithLabels(free, cv2.DIST_L2, 5, labelType=cv2.DIST_LABEL_PIXEL)
+    rows, columns = np.nonzero(free == 0)
+    site_at = np.zeros((sites.max() + 1, 2))
+    site_at[sites[rows, columns]] = np.stack([rows, columns], 1)
+    base = site_at[sites]
+    diagram = np.zeros(free.shape, bool)
+    other = np.zeros_like(base)
+    for axis in (0, 1):
+        here, there = [(slice(None, -1), slice(None)), (slice(None), slice(None, -1))][axis], [
+            (slice(1, None), slice(None)), (slice(None), slice(1, None))][axis]
+        between = np.linalg.norm(base[here] - base[there], axis=2)
+        # Sites at least as far apart as one of them is away: opposite walls, and not neighbors along one.
+        parted = (between > 1.5 * np.maximum(distance[here], 2)) & (free[here] == 1) & (free[there] == 1)
+        diagram[here] |= parted
+        other[here][parted] = base[there][parted]
+    reach = int(0.5 / RESOLUTION)
+    on = np.where(diagram, distance, np.inf).astype(np.float32)
+    least = cv2.erode(on, cv2.getStructuringElement(cv2.MORPH_ELLIPSE, (2 * reach + 1,) * 2))
+    most = cv2.dilate(np.where(diagram, distance, 0).astype(np.float32),
+                      cv2.getStructuringElement(cv2.MORPH_ELLIPSE, (2 * reach + 1,) * 2))
+    critical = diagram & (on <= least) & (on < 0.8 * most) & (on < 0.8 / RESOLUTION)
+    cut = free.copy()
+    for row, column in zip(*np.nonzero(critical)):
+        for end in (base[row, column], other[row, column]):
+            cv2.line(cut, (int(column), int(row)), (int(end[1]), int(end[0])), 0, 2)
+    count, labels, stats, _ = cv2.connectedComponentsWithStats(cut, connectivity=4)
+    crumbs = [label for label in range(1, count) if stats[label, cv2.CC_STAT_AREA] * RESOLUTION**2 < 1.5]
+    labels[np.isin(labels, crumbs)] = 0
+    return grown(labels, free, distance)
+
+
 def labels_of(program, plan):
     with tempfile.TemporaryDirectory() as folder:
         out = pathlib.Path(folder) / "labels.png"
@@ -99,7 +148,8 @@ def main():
     arguments.add_argument("folder", type=pathlib.Path)
     arguments.add_argument("--hssh", help="the program")
     given = arguments.parse_args()
-    peers = {"watershed": lambda plan: watershed(gray(plan))}
+    baselines = {"watershed": watershed, "distance": distance_cores, "voronoi": voronoi}
+    peers = {name: lambda plan, segment=segment: segment(gray(plan)) for name, segment in baselines.items()}
     if given.hssh:
         peers["hssh"] = lambda plan: labels_of(given.hssh, plan)
     names = sorted(path.name[: -len(TRUTH)] for path in given.folder.glob("*" + TRUTH))

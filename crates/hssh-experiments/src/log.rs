@@ -1,10 +1,12 @@
 //! Surveys and maps real laser logs, compares what comes out with what is known of the buildings, and refuses what is
 //! worse than it should be.
 
+mod building;
 mod drift;
 mod figures;
 mod mrpt;
 mod table;
+mod tours;
 
 use std::error::Error;
 use std::path::{Path, PathBuf};
@@ -37,7 +39,7 @@ pub(crate) fn run(flags: &flags::Log) -> Result<(), Box<dyn Error>> {
     if flags.mrpt && !with_mrpt {
         println!("MRPT (icp-slam, rbpf-slam, carmen2rawlog; Debian: mrpt-apps) or python3 is not installed");
     }
-    let (mut all, mut compared, mut drifts) = (Vec::new(), Vec::new(), Vec::new());
+    let (mut all, mut compared, mut drifts, mut buildings) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
     for name in LOGS {
         let path = file(data, name);
         if !path.is_file() {
@@ -50,6 +52,7 @@ pub(crate) fn run(flags: &flags::Log) -> Result<(), Box<dyn Error>> {
         let tracking = Usage::now()?.user_seconds - started;
         let track: Vec<Pose> = tracked.scans.iter().map(|scan| scan.pose).collect();
         all.push(Figures::of(name, &mapping, &track));
+        buildings.extend(mapping.answer().and_then(|answer| building::Building::of(name, answer)));
         drifts.extend(drift::rows(name, mapping.log(), &tracked));
         let known = relations(data, name, &mapping)?;
         let truth: Vec<Pose> = mapping.log().scans.iter().map(|scan| scan.corrected).collect();
@@ -72,6 +75,12 @@ pub(crate) fn run(flags: &flags::Log) -> Result<(), Box<dyn Error>> {
     println!("{}", table::of_logs(&all));
     println!("{}", table::of_compared(&compared));
     println!("{}", table::of_drift(&drifts));
+    println!("{}", building::table(&buildings));
+    let plans = data.join("gridmap/rooms");
+    match plans.is_dir() {
+        true => println!("{}", tours::report(&plans)?),
+        false => println!("no tours of floor plans: there is no {}", plans.display()),
+    }
     let faults: Vec<String> = all.iter().flat_map(Figures::faults).collect();
     if faults.is_empty() { Ok(()) } else { Err(faults.join("; ").into()) }
 }

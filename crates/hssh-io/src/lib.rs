@@ -3,13 +3,17 @@
 //! What is made of a recording is a [`LaserLog`](hssh_local::LaserLog): the scans of one laser with the geometry that they
 //! tell, in order of time, and raw odometry between them. Units are metres, radians and seconds.
 
+mod json_lines;
+mod laser;
 #[cfg(feature = "bags")]
 mod ros;
 mod table;
 
+pub use json_lines::{JsonLines, JsonLinesError, is_json_lines, next_line, read_json_lines};
+pub use laser::KnownLaser;
 #[cfg(feature = "bags")]
 pub use ros::{
-    BagAccount, BagError, FrameAccount, ReadRecording, RecordingError, RecordingOptions, TopicAccount,
-    bag_account, is_packed_bag, read_bag, with_file,
+    BagAccount, BagError, FrameAccount, GrowingBag, ReadRecording, RecordingError, RecordingOptions,
+    TopicAccount, bag_account, follow_bag, is_packed_bag, read_bag, with_file,
 };
-pub use table::{TableError, TableOptions, is_table, read_table};
+pub use table::{TableError, is_table, read_table};

@@ -16,6 +16,8 @@ use std::io::{self, BufRead};
 use hssh_local::{LaserLog, LogError, LogWarning, RecordedScan, Recording, Scan, TimedPose};
 use hssh_metrics::Pose;
 
+use crate::laser::KnownLaser;
+
 /// No line is longer, in bytes.
 const LONGEST_LINE: u64 = 1 << 22;
 /// The columns before the ranges.
@@ -75,15 +77,6 @@ pub enum TableError {
     Log(#[from] LogError),
 }
 
-/// What is known of the laser beside the table.
-#[derive(Clone, Copy, PartialEq, Debug, Default)]
-pub struct TableOptions {
-    /// How wide the laser looks, in radians; half a turn if neither this nor the table says it.
-    pub view: Option<f64>,
-    /// The laser in the robot's frame.
-    pub laser: Option<Pose>,
-}
-
 /// Whether a text's beginning is that of a table.
 #[must_use]
 pub fn is_table(line: &str) -> bool {
@@ -102,8 +95,8 @@ fn fields(line: &str) -> impl Iterator<Item = &str> {
 ///
 /// # Errors
 /// If it cannot be read, at its line, or if there is no scan in it that can be used.
-pub fn read_table(mut source: impl BufRead, options: &TableOptions) -> Result<LaserLog, TableError> {
-    let mut table = Table::new(options);
+pub fn read_table(mut source: impl BufRead, laser: &KnownLaser) -> Result<LaserLog, TableError> {
+    let mut table = Table::new(laser);
     let mut line = 0;
     let mut bytes = Vec::new();
     loop {
@@ -128,13 +121,13 @@ struct Table {
 }
 
 impl Table {
-    fn new(options: &TableOptions) -> Self {
-        let laser = options.laser.unwrap_or_default();
+    fn new(laser: &KnownLaser) -> Self {
+        let pose = laser.pose.unwrap_or_default();
         Table {
             angles: [None; 2],
-            view: options.view.unwrap_or(std::f64::consts::PI),
-            turn: laser.theta,
-            recording: Recording { laser: [laser.x, laser.y], ..Recording::default() },
+            view: laser.view.unwrap_or(std::f64::consts::PI),
+            turn: pose.theta,
+            recording: Recording { laser: [pose.x, pose.y], ..Recording::default() },
             back: None,
         }
     }
@@ -235,7 +228,7 @@ mod tests {
     use super::*;
 
     fn read(text: &str) -> Result<LaserLog, TableError> {
-        read_table(text.as_bytes(), &TableOptions::default())
+        read_table(text.as_bytes(), &KnownLaser::default())
     }
 
     #[test]

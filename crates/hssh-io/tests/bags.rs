@@ -3,7 +3,7 @@
 
 use std::path::{Path, PathBuf};
 
-use hssh_io::{RecordingError, RecordingOptions, bag_account, read_bag};
+use hssh_io::{GrowingBag, RecordingError, RecordingOptions, bag_account, follow_bag, read_bag};
 use hssh_local::LaserLog;
 
 fn bag(name: &str) -> PathBuf {
@@ -174,4 +174,33 @@ fn what_is_no_bag_is_told() {
     }
     std::fs::write(&old, packed).unwrap();
     assert!(read(&old).to_string().contains("compressed by `lz9`"), "{}", read(&old));
+}
+
+/// However an MCAP file comes through a pipe, in the end its log is that of the file.
+#[test]
+fn a_bag_that_comes_is_in_the_end_the_bag() {
+    /// Gives a few bytes at a time.
+    struct Dripping<'a>(&'a [u8]);
+    impl std::io::Read for Dripping<'_> {
+        fn read(&mut self, buffer: &mut [u8]) -> std::io::Result<usize> {
+            let count = self.0.len().min(buffer.len()).min(97);
+            buffer[..count].copy_from_slice(&self.0[..count]);
+            self.0 = &self.0[count..];
+            Ok(count)
+        }
+    }
+    let file = bag("usual/usual.mcap");
+    let bytes = std::fs::read(&file).unwrap();
+    let mut growing = GrowingBag::new(RecordingOptions::default());
+    let mut scans = Vec::new();
+    let followed = follow_bag(Path::new("-"), Dripping(&bytes), |change| {
+        change(&mut growing);
+        scans.push((growing.scans(), growing.log().map_or(0, |log| log.scans.len())));
+    });
+    followed.unwrap();
+    assert!(scans.is_sorted() && scans.iter().all(|(come, settled)| settled <= come));
+    assert_eq!(growing.read().unwrap(), read_bag(&file, &RecordingOptions::default()).unwrap());
+    assert!(growing.read().unwrap().log.scans.len() > 3);
+    let cut = follow_bag(Path::new("-"), &bytes[..bytes.len() / 2], |change| change(&mut growing));
+    assert!(cut.is_ok() || matches!(cut, Err(RecordingError::Bag(_))));
 }

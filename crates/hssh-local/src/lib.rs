@@ -41,20 +41,20 @@ mod skeleton;
 mod survey;
 
 pub use carmen::{
-    LaserKind, LaserLog, LaserMessage, LaserMount, LaserView, LogError, LogPosition, LogReader, LogWarning,
-    LoggedScan, Message, MessageProblem,
+    GrowingLog, LaserKind, LaserLog, LaserMessage, LaserMount, LaserView, LogError, LogPosition, LogReader,
+    LogWarning, LoggedScan, Message, MessageProblem,
 };
 pub use closing::{ClosedTrack, ClosingError, ClosingOptions, Closure, close_loops};
 pub use distance::DistanceField;
-pub use global_map::{building_map, global_map, global_poses, mean_wall_distance, visit_frames};
+pub use global_map::{Stay, building_map, global_map, global_poses, mean_wall_distance, stays, visit_frames};
 pub use grid::{Cell, CellLine, GridError, Lattice, LatticeError, Occupancy, OccupancyGrid};
 pub use local_map::{LocalMap, LocalMapOptions};
 pub use map_server::{
     MapError, encode_png, read_floor_plan, read_map, read_map_with_remarks, write_map, write_png,
 };
 pub use matching::{
-    LaserTurn, MatchOptions, MotionNoise, Slip, TimedScan, Track, TrackedScan, Tracker, odometry_from_scans,
-    track,
+    GrowingTrack, LaserTurn, MatchOptions, MotionNoise, Slip, TimedScan, Track, TrackedScan, Tracker,
+    odometry_from_scans, track,
 };
 pub use place::{
     DoorOptions, Gateway, GatewayOptions, GridPlace, LocalStar, Neighborhood, NeighborhoodError, OpenEnd,
@@ -65,12 +65,12 @@ pub use progress::Reply;
 pub use recording::{RecordedScan, Recording, TimedPose};
 pub use region::{
     CutOptions, DoorwayOptions, KindOptions, Outline, Passage, Region, RegionKind, RegionMap, RegionNumber,
-    RegionOptions,
+    RegionOptions, without_rims,
 };
 pub use roadmap::{
     Connection, RegionPlace, RoadNode, RoadNodeKind, RoadNodeNumber, Roadmap, RoadmapOptions, Way,
 };
-pub use route::RouteOptions;
+pub use route::{RouteOptions, driven_line};
 pub use scan::Scan;
 pub use skeleton::{
     AxisPoint, EdgeEnd, FreeSpace, Skeleton, SkeletonEdge, SkeletonEdgeId, SkeletonNode, SkeletonNodeId,
@@ -78,5 +78,5 @@ pub use skeleton::{
 };
 pub use survey::{
     Evidence, PerceptionModel, Resemblance, Survey, SurveyError, SurveyOptions, SurveyStage, SurveyWarning,
-    Visit, doubts, resemblance, survey,
+    Visit, doubts, resemblance, survey, survey_tracked,
 };

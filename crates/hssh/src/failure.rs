@@ -4,9 +4,9 @@ use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 use hssh::answer::{Answer, PictureError, VerdictKind};
-use hssh::kind::FileKind;
+use hssh::file::FileError;
+use hssh::page::PageError;
 use hssh::pipeline::{PipelineError, SearchFailure};
-use hssh_causal::ParseError;
 use hssh_draw::TreeError;
 
 use crate::terminal::say;
@@ -51,32 +51,22 @@ impl From<Status> for ExitCode {
 pub(crate) enum Failure {
     #[error("cannot read {}: {error}\nhelp: give the path of a file that is there, or - for standard input", file.display())]
     Read { file: PathBuf, error: std::io::Error },
-    #[error("{} is {kind}: unpack it first, as by `{} {} | hssh …` with `-` for the file", file.display(), unpacker(kind), file.display())]
-    Compressed { file: PathBuf, kind: FileKind },
-    #[error("{} is {kind}, but this command takes {wanted}{}", file.display(), advice(kind))]
-    Kind { file: PathBuf, kind: FileKind, wanted: &'static str },
-    #[error("cannot unpack {}: {error}\nhelp: the file is cut off or damaged: copy it again", file.display())]
-    Damaged { file: PathBuf, error: std::io::Error },
-    #[error("{} is longer than {most} MiB: no exploration is that large\nhelp: a laser log or a pose graph may be", file.display())]
-    TooLong { file: PathBuf, most: u64 },
+    #[error(transparent)]
+    File(Box<FileError>),
     #[error("cannot write {}: {error}\nhelp: the folder must exist and be writable", file.display())]
     Write { file: PathBuf, error: std::io::Error },
     #[error("{} is the input{}: hssh does not write over what it reads\nhelp: give the output another name", file.display(), also_named(file, input))]
     OverInput { file: PathBuf, input: PathBuf },
     #[error("{} and {} are one file, which only one output can have\nhelp: give each output a name of its own", other.display(), file.display())]
     SameOutput { file: PathBuf, other: PathBuf },
-    #[error("{rendered}")]
-    Parse { rendered: String },
     #[error("cannot read the options in {}: {error}\nhelp: `hssh options` prints a file with all defaults", file.display())]
     ReadOptions { file: PathBuf, error: std::io::Error },
     #[error("{}:{}:{}: {}\nhelp: `hssh options` prints every option with its default", file.display(), error.line(), error.column(), error.problem())]
     Options { file: PathBuf, error: Box<hssh::pipeline::OptionsError> },
-    #[error("{}: {error}", file.display())]
-    Graph { file: PathBuf, error: Box<hssh_metrics::ReadError> },
-    #[error("{} holds no pose graph in the plane: {skipped}\nhelp: hssh reads records in the plane: `VERTEX_SE2`, `EDGE_SE2` (g2o), `VERTEX2`, `EDGE2` (TORO), `ODOMETRY` (iSAM)", file.display())]
-    EmptyGraph { file: PathBuf, skipped: String },
     #[error("{}: {lost}, and --strict accepts no partial answer", file.display())]
     Partial { file: PathBuf, lost: String },
+    #[error(transparent)]
+    Graph(#[from] hssh::graph::GraphFailure),
     #[error("cannot solve the pose graph: {0}")]
     Solve(#[from] hssh_metrics::SolveError),
     #[error(transparent)]
@@ -85,6 +75,8 @@ pub(crate) enum Failure {
     Tree(#[from] TreeError),
     #[error("{0}{help}", help = help(.0))]
     Pipeline(Box<PipelineError>),
+    #[error("{}: {error}", file.display())]
+    Export { file: PathBuf, error: hssh::export::ExportError },
     #[error("there is no odometry to write as a pose graph")]
     NoOdometry,
     #[error("there is no map number {asked}: only {found} {explain} the exploration", explain = if *found == 1 { "map explains" } else { "maps explain" })]
@@ -97,16 +89,12 @@ pub(crate) enum Failure {
     Grid(#[from] hssh_local::MapError),
     #[error("the map of the building is too large for a grid: {0}")]
     TooLarge(#[from] hssh_local::LatticeError),
-    #[error("cannot use {}: {error}\nhelp: give the path of a CARMEN log with FLASER messages, plain or gzip, or - for standard input", file.display())]
-    ReadLog { file: PathBuf, error: Box<hssh_local::LogError> },
-    #[error("cannot use {}: {error}", file.display())]
-    ReadTable { file: PathBuf, error: Box<hssh_io::TableError> },
-    #[cfg(feature = "bags")]
-    #[error("cannot use {}: {error}\nhelp: `hssh check` says what is in a bag", file.display())]
-    ReadBag { file: PathBuf, error: Box<hssh_io::RecordingError> },
-    #[cfg(not(feature = "bags"))]
-    #[error("{} is {kind}, and this hssh was built without its feature `bags`\nhelp: `cargo run --release --package hssh -- …` has it", file.display())]
-    WithoutBags { file: PathBuf, kind: FileKind },
+    #[error(
+        "cannot serve the page on port {port} of this machine: {error}\nhelp: another program may use it: give another --port, or 0 for any that is free"
+    )]
+    Port { port: u16, error: std::io::Error },
+    #[error("no scan came that can be used")]
+    NothingCame,
     #[error("{}: {error}", file.display())]
     Survey { file: PathBuf, error: Box<hssh_local::SurveyError> },
     #[error("the track is no pose graph: {0}")]
@@ -142,16 +130,18 @@ fn also_named(file: &Path, input: &Path) -> String {
     if file == input { String::new() } else { format!(" under another name ({})", input.display()) }
 }
 
-/// What unpacks a compressed file.
-fn unpacker(kind: &FileKind) -> &'static str {
-    if let FileKind::Compressed(_, unpacker) = kind { unpacker } else { "cat" }
+impl From<FileError> for Failure {
+    fn from(error: FileError) -> Self {
+        Failure::File(Box::new(error))
+    }
 }
 
-/// What to do with a file that another command takes, on a line of its own.
-fn advice(kind: &FileKind) -> String {
-    match kind.advice() {
-        "" => String::new(),
-        advice => format!("\nhelp: {advice}"),
+impl From<PageError> for Failure {
+    fn from(error: PageError) -> Self {
+        match error {
+            PageError::Pipeline(error) => error.into(),
+            PageError::Picture(error) => error.into(),
+        }
     }
 }
 
@@ -162,14 +152,9 @@ impl From<PipelineError> for Failure {
 }
 
 impl Failure {
-    pub(crate) fn parse(file: &Path, bytes: &[u8], error: &ParseError) -> Self {
-        let source = String::from_utf8_lossy(bytes);
-        Failure::Parse { rendered: error.render(&file.display().to_string(), &source) }
-    }
-
     /// Says what went wrong on standard error. Nobody reads on where a pipe was closed.
     pub(crate) fn print(&self) {
-        let prefix = if matches!(self, Failure::Parse { .. }) { "" } else { "error: " };
+        let prefix = if self.is_rendered() { "" } else { "error: " };
         let text = self.to_string();
         if !self.is_broken_pipe() {
             say(&format!("{prefix}{}", text.trim_end()));
@@ -182,6 +167,11 @@ impl Failure {
             Failure::Refused { .. } => ExitCode::from(1),
             _ => ExitCode::from(2),
         }
+    }
+
+    /// Whether it begins with the word `error` itself.
+    fn is_rendered(&self) -> bool {
+        matches!(self, Failure::File(error) if matches!(**error, FileError::Exploration { .. }))
     }
 
     fn is_broken_pipe(&self) -> bool {

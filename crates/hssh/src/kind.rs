@@ -13,6 +13,8 @@ pub enum FileKind {
     Recording(&'static str),
     /// A table with the odometry and the ranges of a scan in each line.
     Table,
+    /// Scans and odometry as JSON, an object a line.
+    JsonLines,
     /// A pose graph: g2o, TORO, iSAM; with its first record.
     PoseGraph(String),
     /// The YAML file of a grid map.
@@ -62,6 +64,7 @@ impl FileKind {
             FileKind::LaserLog(_) => "`hssh map` maps a laser log, `hssh explore` makes an exploration of it",
             FileKind::Recording(_) => "`hssh check` says what is in a bag, `hssh map` maps it",
             FileKind::Table => "`hssh map` maps a table of scans, `hssh explore` makes an exploration of it",
+            FileKind::JsonLines => "`hssh map` maps scans, `hssh explore` makes an exploration of them",
             FileKind::PoseGraph(_) => "`hssh graph` optimizes a pose graph",
             FileKind::MapDescription | FileKind::Image(_) => {
                 "`hssh stars` finds the places of a grid map, `hssh simulate` drives through one"
@@ -85,6 +88,7 @@ impl fmt::Display for FileKind {
             FileKind::LaserLog(first) => write!(f, "a laser log (its first message is `{}`)", word(first)),
             FileKind::Recording(what) => write!(f, "{what}"),
             FileKind::Table => write!(f, "a table of scans"),
+            FileKind::JsonLines => write!(f, "scans as lines of JSON"),
             FileKind::PoseGraph(first) => write!(f, "a pose graph (its first record is `{}`)", word(first)),
             FileKind::MapDescription => write!(f, "the description of a grid map"),
             FileKind::Image(kind) => write!(f, "an image ({kind})"),
@@ -138,7 +142,7 @@ fn of_text(text: &str) -> FileKind {
         return FileKind::Written("hssh-certificate".to_owned());
     }
     if first.starts_with('{') {
-        return of_json(text);
+        return if hssh_io::is_json_lines(first) { FileKind::JsonLines } else { of_json(text) };
     }
     if first.starts_with(['(', '/']) || first.starts_with("Exploration") {
         return FileKind::Exploration;
@@ -236,6 +240,7 @@ mod tests {
         assert_eq!(of("P5\n3 3 255\n"), FileKind::Image("PGM"));
         assert_eq!(of("{\n  \"format\": \"hssh-answer\","), FileKind::Written("hssh-answer".into()));
         assert_eq!(of("# angle_min: -1\ntime,x,y,theta\n"), FileKind::Table);
+        assert_eq!(of("\n{\"time\": 0, \"pose\": [0, 0, 0]}\n"), FileKind::JsonLines);
         assert!(matches!(FileKind::of(b"\x89MCAP0\r\n"), FileKind::Recording(_)));
         assert_eq!(of("hello"), FileKind::Text);
         assert_eq!(of(""), FileKind::Empty);

@@ -43,7 +43,11 @@
 pub mod account;
 pub mod answer;
 pub mod export;
+pub mod file;
+pub mod graph;
 pub mod kind;
+pub mod online;
+pub mod page;
 pub mod pipeline;
 
 #[doc(inline)]
@@ -65,3 +69,8 @@ pub use hssh_world as world;
 #[cfg(doctest)]
 #[doc = include_str!("../../../README.md")]
 struct Readme;
+
+/// What is said about pages, so that its example is tested.
+#[cfg(doctest)]
+#[doc = include_str!("../../../docs/report.md")]
+struct Report;

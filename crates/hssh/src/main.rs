@@ -7,6 +7,7 @@ mod arguments;
 mod command;
 mod failure;
 mod input;
+mod live;
 mod output;
 mod progress;
 mod terminal;
@@ -27,15 +28,19 @@ fn main() -> ExitCode {
     }
     let done = match arguments.command {
         Command::Map(options) => command::map::run(&options),
+        Command::Live(options) => command::live::run(&options),
         Command::Check(options) => command::check::run(&options),
         Command::Explain(options) => command::explain::run(&options),
         Command::Graph(options) => command::graph::run(&options),
         Command::Stars(options) => command::stars::run(&options),
+        Command::Export(options) => command::export::run(&options),
         Command::Track(options) => command::track::run(&options),
         Command::Explore(options) => command::explore::run(&options),
         Command::Simulate(options) => command::simulate::run(&options),
         Command::Verify(options) => command::verify::run(&options),
         Command::Options(options) => command::print_options(&options),
+        Command::Completions(options) => command::shell::print_completions(&options),
+        Command::Man(options) => command::shell::print_man(&options),
     };
     match done {
         Ok(status) => status.into(),

@@ -40,6 +40,12 @@ pub(crate) fn is_interrupted() -> bool {
     ASKED.load(Ordering::Relaxed)
 }
 
+/// Takes an interruption as heard: the work that follows is not to stop, and another signal interrupts that.
+pub(crate) fn hear_interruption() {
+    ASKED.store(false, Ordering::Relaxed);
+    MONITOR.reset();
+}
+
 /// Runs `search` with a monitor that signals interrupt. On a terminal, a line on standard error says how far the search
 /// is.
 pub(crate) fn watched<T>(travels: usize, search: impl FnOnce(&Arc<Monitor>) -> T) -> T {

@@ -7,10 +7,11 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use hssh::answer::{
-    Answer, AnswerError, AnswerWarning, AnsweredEvidence, AnsweredMap, AnsweredVisit, Assumption,
-    CorrectionKind, CostItem, CostSheet, EndReference, EndState, Explanation, Finding, FoundCounts,
-    InputKind, MapDifference, PartingVisit, PlacedPose, ReadingAccount, ReadingCorrection, SearchObjective,
-    SearchOrder, Spot, StopReason, TestTravels, Verdict, VerdictKind, VisitRecord, WarningKind, Worth,
+    Answer, AnswerError, AnswerWarning, AnsweredBuilding, AnsweredEvidence, AnsweredMap, AnsweredPassage,
+    AnsweredRegion, AnsweredStay, AnsweredVisit, Assumption, CorrectionKind, CostItem, CostSheet,
+    EndReference, EndState, Explanation, Finding, FoundCounts, InputKind, MapDifference, PartingVisit,
+    PlacedPose, ReadingAccount, ReadingCorrection, SearchObjective, SearchOrder, Spot, StopReason,
+    TestTravels, Verdict, VerdictKind, VisitRecord, WarningKind, Worth,
 };
 use hssh::causal::Exploration;
 use hssh::pipeline::{Input, Mapped, MappingOptions, Monitor, SearchMethod, map};
@@ -60,6 +61,9 @@ fn full() -> Answer {
     first.costs =
         Some(CostSheet { total: 0.3, items: vec![CostItem { item: "bend".to_owned(), nats: 0.3 }] });
     first.places[0].ends[0].label = Some("door".to_owned());
+    first.places[0].ends[0].gateway = Some([[1.5, 0.7], [1.5, -0.7]]);
+    first.links[0].way = vec![[0.0, 0.0], [1.0 / 3.0, 0.1], [7.0, 0.0]];
+    first.trajectory = vec![[12.5, 0.0, 0.1, -0.2]];
     first.visits[0] =
         AnsweredVisit { entry: Some("0-".to_owned()), robot: Some(pose), ..first.visits[0].clone() };
     first.difference = Some(MapDifference {
@@ -67,7 +71,32 @@ fn full() -> Answer {
         parting: Some(PartingVisit { visit: 1, first_place: 0, first_rotation: 0, place: 1, rotation: 2 }),
         test: Some(TestTravels { exits: vec![end()], first_arrival: Some(end()), arrival: Some(end()) }),
     });
+    first.places[0].region = Some(0);
+    let region = AnsweredRegion {
+        kind: "room".to_owned(),
+        area: 12.5,
+        width: 1.0 / 3.0,
+        explored: 0.9,
+        stays: 1,
+        places: vec![0],
+        passages: vec![0],
+        outline: vec![vec![[0.1, 0.0], [1.0, 0.0], [0.0, 1.0 / 3.0]]],
+        holes: vec![vec![[0.1, 0.1], [0.1, 0.2], [0.2, 0.1]]],
+    };
+    let passage = AnsweredPassage {
+        kind: "door".to_owned(),
+        door_probability: 0.75,
+        regions: [0, 1],
+        width: 0.9,
+        line: [[0.1, 0.2], [1.0, 0.2]],
+    };
+    answer.building = Some(AnsweredBuilding {
+        regions: vec![region],
+        passages: vec![passage],
+        stays: vec![AnsweredStay { region: 0, scans: [0, 7] }],
+    });
     answer.visits[0] = VisitRecord {
+        region: Some(0),
         scan: Some(7),
         scans: Some([5, 9]),
         times: Some([1.5, 2.5]),
@@ -181,6 +210,7 @@ fn every_word_is_documented() {
         WarningKind::Lost,
         WarningKind::NoOdometry,
         WarningKind::NoPoses,
+        WarningKind::NoBuilding,
         WarningKind::FewerThreads,
     ]));
 }

@@ -3,6 +3,7 @@
 use hssh_topology::{PlaceId, TopologicalMap};
 use nalgebra::vector;
 
+use super::building::draw_building;
 use super::clearance::Obstacles;
 use super::marks::Scene;
 use super::{MapOptions, measure_line};
@@ -30,10 +31,14 @@ const NAME_SIZE: f64 = 11.0;
 #[must_use]
 pub fn draw_map(map: &TopologicalMap, drawing: &Drawing, options: &MapOptions) -> String {
     let (palette, origin) = (Palette::of(map), Point::zeros());
-    let scene = Scene { map, drawing, palette, unit: UNIT, radius: RADIUS, line: LINE, origin };
+    let stretch = options.building.as_ref().map_or(1.0, |building| building.stretch(drawing.unit() / UNIT));
+    let scene = Scene { map, drawing, palette, unit: UNIT, stretch, radius: RADIUS, line: LINE, origin };
     let mut canvas = Canvas::default();
     let mut obstacles = Obstacles::of(&scene);
 
+    if let Some(building) = &options.building {
+        draw_building(&mut canvas, &scene, building);
+    }
     canvas.open(r#"class="links""#);
     scene.draw_links(&mut canvas);
     canvas.close();

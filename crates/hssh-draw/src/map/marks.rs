@@ -15,6 +15,8 @@ pub(crate) struct Scene<'a> {
     pub(crate) palette: Palette,
     /// The length of a typical link, in pixels.
     pub(crate) unit: f64,
+    /// By how much places are farther apart than that, so that there is room for a building.
+    pub(crate) stretch: f64,
     /// The radius of a place, in pixels.
     pub(crate) radius: f64,
     /// The width of a link, in pixels.
@@ -31,7 +33,7 @@ pub(super) const CLOSED_LENGTH: f64 = 1.9;
 impl Scene<'_> {
     /// Drawing to canvas: scaled, and y down.
     pub(crate) fn on_canvas(&self, point: Point) -> Point {
-        let scale = self.unit / self.drawing.unit();
+        let scale = self.stretch * self.unit / self.drawing.unit();
         self.origin + vector![point.x * scale, -point.y * scale]
     }
 
@@ -49,7 +51,7 @@ impl Scene<'_> {
 
     /// A link on the canvas.
     pub(crate) fn link(&self, from: MapOlp, to: MapOlp) -> Vec<Cubic> {
-        let radius = self.radius / self.unit * self.drawing.unit();
+        let radius = self.radius / (self.stretch * self.unit) * self.drawing.unit();
         let cubics = link_curve(self.drawing, from, to, radius);
         cubics.into_iter().map(|cubic| cubic.map(|point| self.on_canvas(point))).collect()
     }

@@ -1,5 +1,6 @@
 //! One topological map as a picture.
 
+mod building;
 mod clearance;
 mod dot;
 mod figure;
@@ -11,10 +12,11 @@ pub(crate) use dot::quoted;
 pub use figure::draw_map;
 pub(crate) use marks::Scene;
 
+use crate::grid::RegionPicture;
 use hssh_topology::{Measure, PlaceId, StarId, TopologicalMap};
 
 /// What is drawn besides the map itself.
-#[derive(Clone, PartialEq, Eq, Debug)]
+#[derive(Clone, PartialEq, Debug)]
 pub struct MapOptions {
     /// A line above the map.
     pub title: Option<String>,
@@ -25,11 +27,22 @@ pub struct MapOptions {
     pub star_names: Vec<String>,
     /// Whether to write a line below the map with its measure: f1, f2, f3, genus, pending gateways.
     pub measure: bool,
+    /// The building around a measured map, drawn under it.
+    pub building: Option<BuildingPicture>,
+}
+
+/// A building to be drawn, in the unit and frame of the places' poses.
+#[derive(Clone, PartialEq, Debug, Default)]
+pub struct BuildingPicture {
+    /// Rooms, corridors and what else there is.
+    pub regions: Vec<RegionPicture>,
+    /// Lines across doors.
+    pub doors: Vec<[[f64; 2]; 2]>,
 }
 
 impl Default for MapOptions {
     fn default() -> Self {
-        MapOptions { title: None, current: None, star_names: Vec::new(), measure: true }
+        MapOptions { title: None, current: None, star_names: Vec::new(), measure: true, building: None }
     }
 }
 

@@ -34,6 +34,7 @@ impl<'a> Thumbnail<'a> {
             drawing,
             palette: Palette::of(map),
             unit: UNIT,
+            stretch: 1.0,
             radius: RADIUS,
             line: LINE,
             origin: Point::zeros(),

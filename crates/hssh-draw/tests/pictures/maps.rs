@@ -147,7 +147,7 @@ fn two_places_as_svg() {
         title: Some("A & B".to_owned()),
         current: Some(PlaceId::new(1)),
         star_names: vec!["west".to_owned()],
-        measure: true,
+        ..MapOptions::default()
     };
     insta::assert_snapshot!(schematic(&map, &options));
 }

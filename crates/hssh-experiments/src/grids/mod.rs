@@ -15,6 +15,8 @@ use std::error::Error;
 
 use crate::flags::Grids;
 pub(crate) use aces::known_places;
+pub(crate) use plans::{RESOLUTION, names as plan_names, truth as plan_truth};
+pub(crate) use segmentation::Rooms;
 
 /// Prints all measurements, one paragraph each.
 pub(crate) fn run(flags: &Grids) -> Result<(), Box<dyn Error>> {

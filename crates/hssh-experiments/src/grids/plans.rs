@@ -11,7 +11,7 @@ use super::segmentation::{Agreement, Rooms};
 use crate::table::aligned;
 
 /// Metres per pixel of all plans.
-pub(super) const RESOLUTION: f64 = 0.05;
+pub(crate) const RESOLUTION: f64 = 0.05;
 /// What the truth is called, and the plan with furniture.
 const TRUTH: &str = "_gt_segmentation.png";
 const FURNISHED: &str = "_furnitures.png";
@@ -34,7 +34,7 @@ pub(super) fn report(folder: &Path) -> Result<String, Box<dyn Error>> {
             if !plan.exists() {
                 continue;
             }
-            let rooms = truth(&folder.join(format!("{name}{TRUTH}")))?;
+            let rooms = truth(folder, &name)?;
             let grid = read_floor_plan(&plan, RESOLUTION)?;
             let map = RegionMap::new(&grid, &RegionOptions::default())?;
             let (agreement, places) = (Agreement::of(&map, &rooms), places(&grid, &map, &rooms));
@@ -62,7 +62,7 @@ fn row(name: String, agreement: &Agreement, places: Places) -> Vec<String> {
 }
 
 /// The plans that have a truth.
-pub(super) fn names(folder: &Path) -> Result<Vec<String>, Box<dyn Error>> {
+pub(crate) fn names(folder: &Path) -> Result<Vec<String>, Box<dyn Error>> {
     let mut names = Vec::new();
     for entry in std::fs::read_dir(folder)? {
         let name = entry?.file_name().to_string_lossy().into_owned();
@@ -72,9 +72,9 @@ pub(super) fn names(folder: &Path) -> Result<Vec<String>, Box<dyn Error>> {
     Ok(names)
 }
 
-/// The true rooms: white areas that lines part, however faint.
-fn truth(image: &Path) -> Result<Rooms, Box<dyn Error>> {
-    let image = std::fs::canonicalize(image)?;
+/// The true rooms of a plan: white areas that lines part, however faint.
+pub(crate) fn truth(folder: &Path, name: &str) -> Result<Rooms, Box<dyn Error>> {
+    let image = std::fs::canonicalize(folder.join(format!("{name}{TRUTH}")))?;
     let yaml: PathBuf = std::env::temp_dir().join(format!("hssh-rooms-{}.yaml", std::process::id()));
     let text = format!(
         "image: {}\nresolution: {RESOLUTION}\norigin: [0, 0, 0]\nnegate: 0\noccupied_thresh: 0.65\nfree_thresh: 0.019\n",

@@ -6,9 +6,9 @@ use hssh_local::{Occupancy, OccupancyGrid, RegionMap};
 const LEAST_ROOM: f64 = 1.0;
 
 /// The true rooms of a plan.
-pub(super) struct Rooms {
+pub(crate) struct Rooms {
     /// For each cell in row-major order its room.
-    pub(super) room_of: Vec<Option<u32>>,
+    pub(crate) room_of: Vec<Option<u32>>,
     pub(super) count: usize,
 }
 

@@ -4,7 +4,7 @@ use std::error::Error;
 use std::fs::File;
 use std::path::Path;
 
-use hssh::answer::AnsweredMap;
+use hssh::answer::{Answer, AnsweredMap};
 use hssh::pipeline::{Input, MappingOptions, SurveyedLog, map};
 use hssh_local::LaserLog;
 use hssh_metrics::Pose;
@@ -17,11 +17,11 @@ const LEAST_PRECISION: f64 = 0.98;
 const LEAST_RECALL: f64 = 0.90;
 const LEAST_REVISIT_PRECISION: f64 = 0.99;
 
-/// A log, its survey and its best map, or why there is none.
+/// A log, its survey and what is answered of it, or why there is no map.
 pub(super) struct Mapping {
     log: LaserLog,
     input: Option<Input>,
-    best: Option<AnsweredMap>,
+    answer: Option<Answer>,
     problem: Option<String>,
     /// Seconds of processor time of the survey and of the search.
     seconds: [f64; 2],
@@ -44,17 +44,26 @@ impl Mapping {
         };
         let usage = Usage::now()?;
         let (ended, peak_bytes) = (usage.user_seconds, usage.peak_bytes);
-        let (best, problem) = match answer {
-            Ok(mapped) => (mapped.answer.maps.into_iter().next(), Some(mapped.answer.verdict.sentence)),
+        let (answer, problem) = match answer {
+            Ok(mapped) => (Some(mapped.answer), None),
             Err(problem) => (None, Some(problem)),
         };
-        let problem = problem.filter(|_| best.is_none());
+        let mapless = answer.as_ref().filter(|answer| answer.maps.is_empty());
+        let problem = problem.or(mapless.map(|answer| answer.verdict.sentence.clone()));
         let seconds = [surveyed_at - started, ended - surveyed_at];
-        Ok(Mapping { log, input: input.ok(), best, problem, seconds, peak_bytes })
+        Ok(Mapping { log, input: input.ok(), answer, problem, seconds, peak_bytes })
     }
 
     pub(super) fn log(&self) -> &LaserLog {
         &self.log
+    }
+
+    pub(super) fn answer(&self) -> Option<&Answer> {
+        self.answer.as_ref()
+    }
+
+    fn best(&self) -> Option<&AnsweredMap> {
+        self.answer.as_ref()?.maps.first()
     }
 
     /// Seconds of processor time of the survey and the search.
@@ -83,7 +92,7 @@ impl Mapping {
 
     /// The place of each visit in the best map, with the true pose of the scan nearest to it.
     fn visited(&self, truth: &[Pose]) -> Vec<(Pose, u32)> {
-        let Some((best, surveyed)) = self.best.as_ref().zip(self.surveyed()) else { return Vec::new() };
+        let Some((best, surveyed)) = self.best().zip(self.surveyed()) else { return Vec::new() };
         let visits = best.visits.iter().zip(&surveyed.survey.visits);
         visits.map(|(told, visit)| (truth[visit.reference], told.place)).collect()
     }
@@ -127,9 +136,9 @@ impl Figures {
             revisit_recall: closed.and_then(|poses| revisits.recall(poses)),
             revisit_precision: closed.and_then(|poses| revisits.precision(poses)),
             visits: mapping.surveyed().map_or(0, |surveyed| surveyed.survey.visits.len()),
-            size: mapping.best.as_ref().map(|map| (map.places.len(), map.links.len())),
+            size: mapping.best().map(|map| (map.places.len(), map.links.len())),
             same_place: SamePlace::new(&mapping.visited(&truth)),
-            probability: mapping.best.as_ref().and_then(stated),
+            probability: mapping.best().and_then(stated),
             seconds: mapping.seconds,
             problem: mapping.problem.clone(),
         }

@@ -93,7 +93,7 @@ pub(crate) fn gather(path: &Path) -> Result<Gathered, BagError> {
 }
 
 impl Gathered {
-    fn add(&mut self, message: &BagMessage<'_>) {
+    pub(crate) fn add(&mut self, message: &BagMessage<'_>) {
         let topic = &message.topic.name;
         let Some(wire) = message.topic.wire else { return };
         let number = self.met.entry(topic.clone()).or_default();

@@ -25,10 +25,14 @@ pub struct ReadRecording {
 /// # Errors
 /// If it cannot be read, if it has no laser of which scans can be used, or if options ask for what it does not have.
 pub fn read_bag(path: &Path, options: &RecordingOptions) -> Result<ReadRecording, RecordingError> {
-    let gathered = gather(path)?;
-    let choice = choose(&gathered, options)?;
-    let used = used(&gathered, &choice);
-    let recording = recording(&gathered, &choice)?;
+    read(&gather(path)?, options)
+}
+
+/// The log of what was gathered of a bag.
+pub(crate) fn read(gathered: &Gathered, options: &RecordingOptions) -> Result<ReadRecording, RecordingError> {
+    let choice = choose(gathered, options)?;
+    let used = used(gathered, &choice);
+    let recording = recording(gathered, &choice)?;
     Ok(ReadRecording { log: LaserLog::from_recording(recording)?, used })
 }
 

@@ -1,15 +1,11 @@
 //! A whole log in memory: its scans, and the raw trajectory between them.
 
 use std::collections::BTreeMap;
-use std::io::Read;
 
 use hssh_metrics::Pose;
 
-use super::error::{LogError, LogWarning};
-use super::mount::LaserMount;
+use super::error::LogWarning;
 use super::position::LogPosition;
-use super::raw::{self, RawLog, RawScan};
-use super::reader::LogReader;
 use crate::scan::Scan;
 
 /// A scan and where it was taken.
@@ -50,57 +46,6 @@ pub struct LaserLog {
 }
 
 impl LaserLog {
-    /// Reads a log, plain or gzip. Messages that cannot be used are left out with a warning; a log that
-    /// breaks off is used up to there.
-    ///
-    /// # Errors
-    /// If the source cannot be read, is no text, is empty, has no usable scan, or if hardly a beam came back.
-    pub fn read(source: impl Read) -> Result<Self, LogError> {
-        LaserLog::read_with(source, &LaserMount::default())
-    }
-
-    /// Reads a log as [`read`](Self::read) does, knowing of the laser what the log does not say, or says wrongly.
-    ///
-    /// # Errors
-    /// As [`read`](Self::read).
-    pub fn read_with(source: impl Read, known: &LaserMount) -> Result<Self, LogError> {
-        let mut reader = LogReader::new(source)?;
-        let mut raw = RawLog::default();
-        while let Some(message) = reader.next_message()? {
-            raw.add(message, LogPosition::Line(reader.line()));
-        }
-        let (lines, mut warnings) = (reader.line(), reader.into_warnings());
-        if raw.scans.is_empty() {
-            return Err(raw.why_useless(lines, warnings));
-        }
-        raw.keep_best_kind();
-        raw.keep_usual_scans(&mut warnings);
-        raw.tell_odd_beams(&mut warnings);
-        let (view, turn, is_told) = raw.view(known);
-        raw.check_view(view, is_told, &mut warnings);
-        raw.move_to_laser(known, &mut warnings);
-        raw.bridge_jumps(&mut warnings);
-        let max_range = raw.limit(&mut warnings)?;
-        let is_facing_unclear = raw.check_facing(view, max_range, &mut warnings);
-        warnings.sort_by_key(LogWarning::position);
-        let logged = |scan: RawScan| LoggedScan {
-            scan: Scan { ranges: raw::came_back(scan.ranges, max_range), view, turn },
-            odometry: raw.trajectory[scan.moment].pose,
-            moment: scan.moment,
-            corrected: scan.corrected,
-            at: scan.at,
-            time: scan.time,
-        };
-        Ok(LaserLog {
-            scans: raw.scans.into_iter().map(logged).collect(),
-            trajectory: raw.trajectory.into_iter().map(|moment| moment.pose).collect(),
-            max_range,
-            skipped: raw.skipped,
-            is_facing_unclear,
-            warnings,
-        })
-    }
-
     /// The log as if it ended with its scan number `scans`, counted from 1.
     #[must_use]
     pub fn beginning(&self, scans: usize) -> Self {

@@ -14,6 +14,7 @@
 
 mod error;
 mod facing;
+mod growing;
 mod jump;
 mod limit;
 mod log;
@@ -25,6 +26,7 @@ mod reader;
 mod view;
 
 pub use error::{LogError, LogWarning, MessageProblem};
+pub use growing::GrowingLog;
 pub use log::{LaserLog, LoggedScan};
 pub use message::{LaserKind, LaserMessage, LaserView, Message};
 pub use mount::LaserMount;

@@ -9,7 +9,7 @@ use super::message::{LaserKind, LaserMessage, LaserView, Message};
 use super::position::LogPosition;
 
 /// All messages of a log.
-#[derive(Default)]
+#[derive(Clone, Default)]
 pub(crate) struct RawLog {
     /// The scans in order.
     pub(crate) scans: Vec<RawScan>,
@@ -22,6 +22,7 @@ pub(crate) struct RawLog {
 }
 
 /// A scan as its message tells it.
+#[derive(Clone)]
 pub(crate) struct RawScan {
     pub(crate) kind: LaserKind,
     /// How its laser looks, if the message says so.

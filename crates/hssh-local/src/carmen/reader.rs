@@ -47,8 +47,8 @@ impl<'a> LogReader<'a> {
         &self.warnings
     }
 
-    pub(super) fn into_warnings(self) -> Vec<LogWarning> {
-        self.warnings
+    pub(super) fn take_warnings(&mut self) -> Vec<LogWarning> {
+        std::mem::take(&mut self.warnings)
     }
 
     fn warn(&mut self, kind: &str, problem: super::MessageProblem) {

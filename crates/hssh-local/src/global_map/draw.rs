@@ -70,10 +70,11 @@ pub fn building_map(log: &LaserLog, poses: &[Pose]) -> Result<OccupancyGrid, Lat
         thresholds: (-0.05, 0.05),
         ..LocalMapOptions::default()
     };
-    drawn(log, poses, &options, |last, pose| {
+    let grid = drawn(log, poses, &options, |last, pose| {
         let moved = last.between(pose);
         moved.translation().norm() > NEW.0 || moved.theta.abs() > NEW.1
-    })
+    })?;
+    Ok(grid.known_part())
 }
 
 /// What the scans draw that are new after the last one drawn.
@@ -128,7 +129,7 @@ mod tests {
         let text: String = (0..3).map(scan).collect();
         let log = LaserLog::read(text.as_bytes()).unwrap();
         let poses: Vec<Pose> = log.scans.iter().map(|scan| scan.odometry).collect();
-        let at = |grid: &OccupancyGrid, x: f64, y: f64| grid.get(grid.lattice().cell_at([x, y]).unwrap());
+        let at = |grid: &OccupancyGrid, x: f64, y: f64| grid.at([x, y]);
         let grid = building_map(&log, &poses).unwrap();
         assert_eq!(grid.lattice().resolution(), 0.05);
         assert_eq!(at(&grid, 2.0, 0.0), Occupancy::Free);

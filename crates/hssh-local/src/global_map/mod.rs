@@ -4,7 +4,9 @@
 mod compare;
 mod draw;
 mod frames;
+mod stay;
 
 pub use compare::mean_wall_distance;
 pub use draw::{building_map, global_map, global_poses};
 pub use frames::visit_frames;
+pub use stay::{Stay, stays};

@@ -202,6 +202,13 @@ impl Lattice {
         Some((lattice, Cell { column, row }))
     }
 
+    /// The part of the lattice from a first cell up to, and without, the column and row of an end beyond it.
+    pub(crate) fn part(&self, first: Cell, end: [u32; 2]) -> Lattice {
+        let origin = self.point([f64::from(first.column), f64::from(first.row)]);
+        let (width, height) = (end[0] - first.column, end[1] - first.row);
+        Lattice { width, height, origin, ..*self }
+    }
+
     /// The cells of the straight line between two cells of the lattice, both included.
     #[must_use]
     pub fn line(&self, from: Cell, to: Cell) -> CellLine {

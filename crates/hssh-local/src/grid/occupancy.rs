@@ -94,6 +94,30 @@ impl OccupancyGrid {
         self.lattice.line(from, to).find(|&cell| self.get(cell) != Occupancy::Free)
     }
 
+    /// The smallest part of the grid that has all cells of which something is known, and a margin of one cell as far as the
+    /// grid has it; the grid itself if nothing is known.
+    #[must_use]
+    pub fn known_part(self) -> OccupancyGrid {
+        let is_known = |cell: &Cell| self.get(*cell) != Occupancy::Unknown;
+        let extend = |bounds: Option<[Cell; 2]>, cell: Cell| {
+            let [low, high] = bounds.unwrap_or([cell; 2]);
+            Some([
+                Cell { column: low.column.min(cell.column), row: low.row.min(cell.row) },
+                Cell { column: high.column.max(cell.column), row: high.row.max(cell.row) },
+            ])
+        };
+        let Some([low, high]) = self.lattice.cells().filter(is_known).fold(None, extend) else { return self };
+        let first = Cell { column: low.column.saturating_sub(1), row: low.row.saturating_sub(1) };
+        let end = [(high.column + 2).min(self.lattice.width()), (high.row + 2).min(self.lattice.height())];
+        let lattice = self.lattice.part(first, end);
+        let inside = |row: u32| {
+            let start = self.lattice.index(Cell { column: first.column, row: first.row + row });
+            start..start + lattice.width() as usize
+        };
+        let cells = (0..lattice.height()).flat_map(|row| self.cells[inside(row)].iter().copied()).collect();
+        OccupancyGrid { lattice, cells }
+    }
+
     /// The part of the grid within a square of `side` metres around a point, with the same cells;
     /// `None` if no cell of the grid is in it.
     #[must_use]
@@ -126,6 +150,20 @@ mod tests {
             assert_eq!(window.get(cell), grid.at(window.lattice().center(cell)));
         }
         assert_eq!(grid.window([100.0, 0.0], 3.0), None);
+    }
+
+    #[test]
+    fn the_known_part_shows_the_same_things_at_the_same_points() {
+        let mut grid = OccupancyGrid::filled(*checkered().lattice(), Occupancy::Unknown);
+        assert_eq!(grid.clone().known_part(), grid);
+        grid.set(Cell { column: 3, row: 0 }, Occupancy::Free);
+        grid.set(Cell { column: 5, row: 2 }, Occupancy::Occupied);
+        let part = grid.clone().known_part();
+        assert_eq!((part.lattice().width(), part.lattice().height()), (5, 4));
+        for cell in part.lattice().cells() {
+            assert_eq!(part.get(cell), grid.at(part.lattice().center(cell)));
+        }
+        assert_eq!([Occupancy::Free, Occupancy::Occupied].map(|known| part.count(known)), [1, 1]);
     }
 
     #[test]

@@ -4,6 +4,7 @@
 mod align;
 mod cloud;
 mod correlate;
+mod growing;
 mod motion;
 mod options;
 mod scans_alone;
@@ -12,6 +13,7 @@ mod turned;
 
 pub(crate) use align::align;
 pub(crate) use cloud::{Cloud, SurfacePoint, surfaces};
+pub use growing::GrowingTrack;
 pub use motion::{MotionNoise, Slip};
 pub use options::MatchOptions;
 pub use scans_alone::{TimedScan, odometry_from_scans};

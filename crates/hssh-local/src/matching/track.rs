@@ -47,6 +47,17 @@ impl Track {
     pub fn motion(&self, from: usize, to: usize) -> Result<Option<UncertainPose>, UncertaintyError> {
         UncertainPose::compound(self.scans[from + 1..=to].iter().filter_map(|scan| scan.step.as_ref()))
     }
+
+    /// Adds the next scan of a log, of which the tracker has seen all before.
+    pub(super) fn extend(&mut self, tracker: &mut Tracker, log: &LaserLog) {
+        let index = self.scans.len();
+        let logged = &log.scans[index];
+        let before = index.checked_sub(1).map_or(logged.moment, |before| log.scans[before].moment);
+        self.scans.push(tracker.add(&logged.scan, &log.trajectory[before..=logged.moment]));
+        if tracker.is_lost() {
+            self.lost.push(index);
+        }
+    }
 }
 
 /// A scan that later ones are matched against.
@@ -143,13 +154,8 @@ pub fn track<R: Into<Reply>>(
 ) -> Track {
     let mut tracker = Tracker::new(*options);
     let mut track = Track::default();
-    let mut before = log.scans.first().map_or(0, |first| first.moment);
-    for (index, logged) in log.scans.iter().enumerate() {
-        track.scans.push(tracker.add(&logged.scan, &log.trajectory[before..=logged.moment]));
-        before = logged.moment;
-        if tracker.is_lost() {
-            track.lost.push(index);
-        }
+    for index in 0..log.scans.len() {
+        track.extend(&mut tracker, log);
         if progress(index + 1).into() == Reply::Stop {
             break;
         }

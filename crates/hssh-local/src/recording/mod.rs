@@ -41,6 +41,16 @@ pub struct TimedPose {
     pub pose: Pose,
 }
 
+impl Recording {
+    /// Drops the scans behind the last reading of odometry, if there is any: while the robot drives on, the next reading says
+    /// where they were taken.
+    pub fn drop_unsettled(&mut self) {
+        if let Some(last) = self.odometry.last() {
+            self.scans.retain(|scan| scan.time <= last.time);
+        }
+    }
+}
+
 impl LaserLog {
     /// The log of a recording. A scan stands where odometry was at its time, between the two readings around it; without odometry, where scan
     /// matching puts it.

@@ -1,11 +1,18 @@
 //! Where pieces touch: the gaps between them, and the walls that they share.
 
 use std::collections::BTreeMap;
+use std::f64::consts::FRAC_PI_2;
 
 use rustc_hash::FxHashSet;
 
 use super::flood::{NO_PIECE, around};
+use super::ground::Ground;
 use crate::distance::DistanceField;
+use crate::place::gateway_at;
+use crate::skeleton::AxisPoint;
+
+/// How far from the end of a gap there is wall at the latest, in cells.
+const BESIDE: i32 = 2;
 
 /// A pair of pieces, the one with the lower number first.
 pub(super) type Pair = (u32, u32);
@@ -24,8 +31,10 @@ pub(super) struct Border {
 pub(super) struct Gap {
     /// The index of the cell in its middle.
     pub(super) cell: u32,
-    /// How wide it is, in metres.
+    /// How wide it is, in metres; at least, if it is not between walls.
     pub(super) width: f64,
+    /// Whether there is wall on both sides, and not space that was never seen.
+    pub(super) is_between_walls: bool,
 }
 
 impl Border {
@@ -34,9 +43,10 @@ impl Border {
         self.gaps.iter().map(|gap| gap.width).sum()
     }
 
-    /// How wide the widest gap is.
-    pub(super) fn widest(&self) -> f64 {
-        self.gaps.iter().map(|gap| gap.width).fold(0.0, f64::max)
+    /// How wide the widest gap is between sides of that width: as wide as these, at least, where no wall limits it.
+    pub(super) fn widest(&self, sides: f64) -> f64 {
+        let width = |gap: &Gap| if gap.is_between_walls { gap.width } else { gap.width.max(sides) };
+        self.gaps.iter().map(width).fold(0.0, f64::max)
     }
 
     /// Takes in what was another border.
@@ -47,7 +57,8 @@ impl Border {
 }
 
 /// All borders; walls count as shared up to a thickness.
-pub(super) fn borders(labels: &[u32], field: &DistanceField, thickest: f64) -> BTreeMap<Pair, Border> {
+pub(super) fn borders(labels: &[u32], ground: &Ground, thickest: f64) -> BTreeMap<Pair, Border> {
+    let field = ground.field();
     let mut borders: BTreeMap<Pair, Border> = BTreeMap::new();
     let cell = field.lattice().resolution();
     for (pair, cells) in contacts(labels, field) {
@@ -59,16 +70,36 @@ pub(super) fn borders(labels: &[u32], field: &DistanceField, thickest: f64) -> B
                     .iter()
                     .max_by_key(|&&index| (field.squared_at(index as usize), std::cmp::Reverse(index)))
                     .expect("a group has a cell");
-                Gap { cell: middle, width: 2.0 * field.clearance_at(middle as usize) + cell }
+                Gap {
+                    cell: middle,
+                    width: 2.0 * field.clearance_at(middle as usize) + cell,
+                    is_between_walls: is_between_walls(middle as usize, ground),
+                }
             })
             .collect();
     }
-    for (pair, cells) in walls(labels, field, thickest) {
+    for (pair, cells) in walls(labels, ground, thickest) {
         if let Some(border) = borders.get_mut(&pair) {
             border.wall = f64::from(cells) * cell;
         }
     }
     borders
+}
+
+/// Whether there is wall at both ends of the line through a cell to the nearest obstacles on both sides.
+fn is_between_walls(index: usize, ground: &Ground) -> bool {
+    let field = ground.field();
+    let lattice = field.lattice();
+    let cell = lattice.cell(index);
+    let at = AxisPoint { cell, point: lattice.center(cell), clearance: field.clearance(cell) };
+    let Some(nearest) = field.nearest(cell) else { return false };
+    let [x, y] = lattice.center(nearest);
+    let along = (y - at.point[1]).atan2(x - at.point[0]);
+    let is_wall = |end: [f64; 2]| {
+        let reach = || (-BESIDE..=BESIDE).map(|steps| f64::from(steps) * lattice.resolution());
+        reach().any(|dx| reach().any(|dy| ground.is_wall_at([end[0] + dx, end[1] + dy])))
+    };
+    gateway_at(&at, along + FRAC_PI_2, field).line.into_iter().all(is_wall)
 }
 
 fn pair(a: u32, b: u32) -> Pair {
@@ -127,8 +158,8 @@ fn connected(cells: &[u32], field: &DistanceField) -> Vec<Vec<u32>> {
 }
 
 /// How many cells along rows and columns pairs of pieces share walls, up to a thickness in metres.
-fn walls(labels: &[u32], field: &DistanceField, thickest: f64) -> BTreeMap<Pair, u32> {
-    let lattice = field.lattice();
+fn walls(labels: &[u32], ground: &Ground, thickest: f64) -> BTreeMap<Pair, u32> {
+    let lattice = ground.field().lattice();
     let (width, height) = (lattice.width() as usize, lattice.height() as usize);
     let most = (thickest / lattice.resolution()).round() as usize;
     let mut walls = BTreeMap::new();
@@ -142,6 +173,7 @@ fn walls(labels: &[u32], field: &DistanceField, thickest: f64) -> BTreeMap<Pair,
             if let Some((before, other)) = last
                 && other != label
                 && (2..=most + 1).contains(&(position - before))
+                && (before + 1..position).any(|between| ground.is_wall(start + between * step))
             {
                 *walls.entry(pair(label, other)).or_default() += 1;
             }

@@ -1,7 +1,7 @@
 //! How probably a passage has a door: by its width, by the wall that it is in, and by what it parts.
 
+use super::ground::Ground;
 use super::options::DoorwayOptions;
-use crate::distance::DistanceField;
 use crate::place::Gateway;
 
 /// Metres from one sample to the next.
@@ -11,25 +11,25 @@ const STEP: f64 = 0.05;
 pub(super) fn door_probability(
     gateway: &Gateway,
     narrower: f64,
-    field: &DistanceField,
+    ground: &Ground,
     options: &DoorwayOptions,
 ) -> f64 {
     let odds = options.base
         + options.room * (narrower / options.room_width).min(1.0).ln()
-        + options.wall * wall_beside(gateway, field, options)
-        + options.way * way_through(gateway, field, options)
+        + options.wall * wall_beside(gateway, ground, options)
+        + options.way * way_through(gateway, ground, options)
         - options.excess * (gateway.width - options.widest_leaf).max(0.0);
     1.0 / (1.0 + (-odds).exp())
 }
 
 /// The part of the line beyond an end of the gateway that is wall, at the end where it is more.
-fn wall_beside(gateway: &Gateway, field: &DistanceField, options: &DoorwayOptions) -> f64 {
+fn wall_beside(gateway: &Gateway, ground: &Ground, options: &DoorwayOptions) -> f64 {
     let ahead = [gateway.bearing.cos(), gateway.bearing.sin()];
     let left = [-ahead[1], ahead[0]];
     let offsets = || steps(-options.tolerance, options.tolerance);
     let covered = |end: [f64; 2], side: f64| {
         let is_wall = |along: &f64| {
-            offsets().any(|off| is_obstacle(field, moved(moved(end, left, side * along), ahead, off)))
+            offsets().any(|off| ground.is_wall_at(moved(moved(end, left, side * along), ahead, off)))
         };
         let all = steps(STEP, options.beside).count();
         steps(STEP, options.beside).filter(is_wall).count() as f64 / all as f64
@@ -38,7 +38,7 @@ fn wall_beside(gateway: &Gateway, field: &DistanceField, options: &DoorwayOption
 }
 
 /// The part of the way straight through that is free, on the side where it is less.
-fn way_through(gateway: &Gateway, field: &DistanceField, options: &DoorwayOptions) -> f64 {
+fn way_through(gateway: &Gateway, ground: &Ground, options: &DoorwayOptions) -> f64 {
     let ahead = [gateway.bearing.cos(), gateway.bearing.sin()];
     let left = [-ahead[1], ahead[0]];
     let free = |direction: f64| {
@@ -46,7 +46,7 @@ fn way_through(gateway: &Gateway, field: &DistanceField, options: &DoorwayOption
             .flat_map(|along| [-options.half_leaf, 0.0, options.half_leaf].map(|off| (along, off)))
             .map(|(along, off)| moved(moved(gateway.position, ahead, direction * along), left, off))
             .collect();
-        points.iter().filter(|&&point| !is_obstacle(field, point)).count() as f64 / points.len() as f64
+        points.iter().filter(|&&point| !ground.is_obstacle_at(point)).count() as f64 / points.len() as f64
     };
     free(1.0).min(free(-1.0))
 }
@@ -59,8 +59,4 @@ fn steps(from: f64, to: f64) -> impl Iterator<Item = f64> {
 
 fn moved(from: [f64; 2], direction: [f64; 2], by: f64) -> [f64; 2] {
     [from[0] + by * direction[0], from[1] + by * direction[1]]
-}
-
-fn is_obstacle(field: &DistanceField, point: [f64; 2]) -> bool {
-    field.lattice().cell_at(point).is_none_or(|cell| field.squared_cells(cell) == Some(0))
 }

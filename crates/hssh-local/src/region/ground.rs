@@ -1,21 +1,110 @@
 //! The ground that regions are made of: the grid with what is certainly wall told from what was never seen.
 
+use super::options::RegionOptions;
+use crate::distance::DistanceField;
 use crate::grid::{Cell, Lattice, Occupancy, OccupancyGrid};
+use crate::skeleton::{FreeSpace, SkeletonOptions, UnknownSpace};
 
-/// The grid of which unknown space that is too thin to be anything but the edge of a wall is wall: drawings have gray
-/// rims, and robots leave specks. The outermost cells are wall, too, for nothing is known beyond.
-pub(super) fn settled(grid: &OccupancyGrid, thinnest: f64) -> OccupancyGrid {
-    let lattice = *grid.lattice();
-    let mut settled = grid.clone();
-    let reach = (thinnest / 2.0 / lattice.resolution()).round().max(1.0) as u32;
-    let is_wide = opened(&lattice, reach, |cell| grid.get(cell) == Occupancy::Unknown);
-    for cell in lattice.cells() {
-        let is_rim = grid.get(cell) == Occupancy::Unknown && !is_wide[lattice.index(cell)];
-        if is_rim || is_outermost(&lattice, cell) {
-            settled.set(cell, Occupancy::Occupied);
-        }
+/// In a map that is not complete, thin unknown space is the face of a wall if there is wall no farther than this, in metres.
+const FACE: f64 = 0.1;
+
+/// What regions are made of.
+pub(super) struct Ground {
+    /// With rims settled.
+    grid: OccupancyGrid,
+    /// Without furniture.
+    free: FreeSpace,
+    unknown: UnknownSpace,
+}
+
+impl Ground {
+    pub(super) fn new(grid: &OccupancyGrid, options: &RegionOptions) -> Self {
+        let grid = settled(grid, options);
+        let clearing = SkeletonOptions {
+            unknown: options.unknown,
+            clutter: options.furniture,
+            narrowest_passage: options.narrowest,
+            ..SkeletonOptions::default()
+        };
+        let free = FreeSpace::new(&grid, &clearing);
+        Ground { grid, free, unknown: options.unknown }
     }
-    settled
+
+    pub(super) fn free(&self) -> &FreeSpace {
+        &self.free
+    }
+
+    /// How far each cell is from what no robot can go through.
+    pub(super) fn field(&self) -> &DistanceField {
+        self.free.field()
+    }
+
+    /// Whether no robot can be in the cell with an index.
+    pub(super) fn is_obstacle(&self, index: usize) -> bool {
+        self.field().squared_at(index) == 0
+    }
+
+    /// Whether the cell with an index is wall, or anything else that stands there for certain.
+    pub(super) fn is_wall(&self, index: usize) -> bool {
+        self.is_obstacle(index)
+            && (self.unknown != UnknownSpace::Unexplored || self.grid.cells()[index] == Occupancy::Occupied)
+    }
+
+    /// Whether there is wall at a point in metres; there is beyond the map, unless it is unexplored.
+    pub(super) fn is_wall_at(&self, point: [f64; 2]) -> bool {
+        let lattice = self.grid.lattice();
+        let at = lattice.cell_at(point).map(|cell| self.is_wall(lattice.index(cell)));
+        at.unwrap_or(self.unknown != UnknownSpace::Unexplored)
+    }
+
+    /// Whether a robot cannot be at a point in metres.
+    pub(super) fn is_obstacle_at(&self, point: [f64; 2]) -> bool {
+        let field = self.field();
+        self.grid.lattice().cell_at(point).is_none_or(|cell| field.squared_cells(cell) == Some(0))
+    }
+}
+
+/// The grid with what is certainly wall.
+fn settled(grid: &OccupancyGrid, options: &RegionOptions) -> OccupancyGrid {
+    let lattice = *grid.lattice();
+    let is_rim = rims(grid, options.rim);
+    if options.unknown == UnknownSpace::Unexplored {
+        // What no scan met between two rays is thin as well, and no wall.
+        let walls = DistanceField::new(lattice, |index| grid.cells()[index] == Occupancy::Occupied);
+        with_walls(grid, |index| is_rim[index] && walls.clearance_at(index) <= FACE)
+    } else {
+        // Nothing is known beyond the map.
+        with_walls(grid, |index| is_rim[index] || is_outermost(&lattice, lattice.cell(index)))
+    }
+}
+
+/// The grid of which unknown space that is thinner than so many metres, between what is known, is wall: drawings have gray
+/// rims, which would else be frontiers, and robots leave specks.
+#[must_use]
+pub fn without_rims(grid: &OccupancyGrid, thinnest: f64) -> OccupancyGrid {
+    let is_rim = rims(grid, thinnest);
+    with_walls(grid, |index| is_rim[index])
+}
+
+/// The grid with walls in further cells, by their indices.
+fn with_walls(grid: &OccupancyGrid, is_wall: impl Fn(usize) -> bool) -> OccupancyGrid {
+    let lattice = *grid.lattice();
+    let mut walled = grid.clone();
+    for cell in lattice.cells().filter(|&cell| is_wall(lattice.index(cell))) {
+        walled.set(cell, Occupancy::Occupied);
+    }
+    walled
+}
+
+/// For each cell whether it is unknown, and in no square of that many metres of which nothing is known.
+fn rims(grid: &OccupancyGrid, thinnest: f64) -> Vec<bool> {
+    let lattice = grid.lattice();
+    let reach = (thinnest / 2.0 / lattice.resolution()).round().max(1.0) as u32;
+    let mut is_rim = opened(lattice, reach, |cell| grid.get(cell) == Occupancy::Unknown);
+    for (is_rim, &known) in is_rim.iter_mut().zip(grid.cells()) {
+        *is_rim = known == Occupancy::Unknown && !*is_rim;
+    }
+    is_rim
 }
 
 fn is_outermost(lattice: &Lattice, Cell { column, row }: Cell) -> bool {

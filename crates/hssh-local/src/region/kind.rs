@@ -26,6 +26,22 @@ pub enum RegionKind {
     Hall,
     /// Between two rooms, and hardly larger than the wall is thick.
     Doorway,
+    /// Much of its rim was never seen, so that it is not known what it is.
+    Unexplored,
+}
+
+impl RegionKind {
+    /// The kind in a word.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            RegionKind::Room => "room",
+            RegionKind::Corridor => "corridor",
+            RegionKind::Hall => "hall",
+            RegionKind::Doorway => "doorway",
+            RegionKind::Unexplored => "unexplored",
+        }
+    }
 }
 
 /// A part of free space.
@@ -37,13 +53,18 @@ pub struct Region {
     pub area: f64,
     /// How wide it is, in metres: four times the mean clearance, which of a long corridor is its width.
     pub width: f64,
+    /// The part of its rim that is wall; the rest was never looked at. 1 unless unknown space is
+    /// [`UnknownSpace::Unexplored`](crate::skeleton::UnknownSpace::Unexplored).
+    pub explored: f64,
 }
 
 impl Region {
-    pub(super) fn new(extent: Extent, options: &KindOptions) -> Self {
+    pub(super) fn new(extent: Extent, explored: f64, options: &KindOptions) -> Self {
         let (area, width) = (extent.area, extent.width());
         let is_long = area >= options.elongation * width * width;
-        let kind = if area <= options.doorway {
+        let kind = if explored < options.explored {
+            RegionKind::Unexplored
+        } else if area <= options.doorway {
             RegionKind::Doorway
         } else if is_long && width <= options.widest_corridor {
             RegionKind::Corridor
@@ -52,6 +73,6 @@ impl Region {
         } else {
             RegionKind::Room
         };
-        Region { kind, area, width }
+        Region { kind, area, width, explored }
     }
 }

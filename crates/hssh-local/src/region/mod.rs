@@ -15,9 +15,11 @@ mod outline;
 mod passage;
 mod picture;
 mod region_map;
+mod rim;
 #[cfg(test)]
 mod tests;
 
+pub use ground::without_rims;
 pub use kind::{Region, RegionKind, RegionNumber};
 pub use options::{CutOptions, DoorwayOptions, KindOptions, RegionOptions};
 pub use outline::Outline;

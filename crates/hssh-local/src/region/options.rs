@@ -96,6 +96,8 @@ pub struct KindOptions {
     /// A region without any way out is one if it is as wide as this: what is narrower is the inside of a thing.
     /// Default: 1.2 m.
     pub narrowest_closed: f64,
+    /// Of less than this part of the rim seen, nothing is told. Default: 0.6.
+    pub explored: f64,
 }
 
 impl Default for RegionOptions {
@@ -148,6 +150,13 @@ impl Default for DoorwayOptions {
 
 impl Default for KindOptions {
     fn default() -> Self {
-        KindOptions { doorway: 2.0, elongation: 4.0, widest_corridor: 4.0, hall: 80.0, narrowest_closed: 1.2 }
+        KindOptions {
+            doorway: 2.0,
+            elongation: 4.0,
+            widest_corridor: 4.0,
+            hall: 80.0,
+            narrowest_closed: 1.2,
+            explored: 0.6,
+        }
     }
 }

@@ -29,6 +29,12 @@ impl Passage {
     pub fn is_door(&self) -> bool {
         self.door_probability >= 0.5
     }
+
+    /// What it is in a word: a door, or an opening.
+    #[must_use]
+    pub fn kind(&self) -> &'static str {
+        if self.is_door() { "door" } else { "opening" }
+    }
 }
 
 /// The line across a gap between two regions, for somebody who goes from the first to the second.

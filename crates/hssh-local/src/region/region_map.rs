@@ -2,15 +2,16 @@
 
 use super::border::{self, Border, Gap, Pair};
 use super::flood::{self, Joining, NO_PIECE, Pieces};
+use super::ground::Ground;
 use super::kind::{Region, RegionNumber};
 use super::merge::{self, Extent, Merged};
 use super::options::RegionOptions;
 use super::outline::{self, Outline};
 use super::passage::{self, Passage};
-use super::{door, ground};
+use super::{door, rim};
+use crate::distance::DistanceField;
 use crate::grid::{Cell, Lattice, OccupancyGrid};
 use crate::place::PlaceGraphError;
-use crate::skeleton::{FreeSpace, SkeletonOptions};
 
 /// The regions of a map.
 #[derive(Clone, Debug)]
@@ -31,55 +32,44 @@ impl RegionMap {
     /// # Errors
     /// If nothing of the grid is known or free, or nothing is wide enough.
     pub fn new(grid: &OccupancyGrid, options: &RegionOptions) -> Result<Self, PlaceGraphError> {
-        let ground = ground::settled(grid, options.rim);
-        let clearing = SkeletonOptions {
-            unknown: options.unknown,
-            clutter: options.furniture,
-            narrowest_passage: options.narrowest,
-            ..SkeletonOptions::default()
-        };
-        let free = FreeSpace::new(&ground, &clearing);
-        if free.is_empty() {
-            return Err(PlaceGraphError::of(grid, &free, options.narrowest));
+        let ground = Ground::new(grid, options);
+        if ground.free().is_empty() {
+            return Err(PlaceGraphError::of(grid, ground.free(), options.narrowest));
         }
-        let field = free.field();
+        let field = ground.field();
         let least = options.narrowest / 2.0 / grid.lattice().resolution();
         let pieces = flood::flood(field, Joining { as_wide: options.as_wide, least });
-        let extents = extents(&pieces, &free);
-        let borders = border::borders(&pieces.labels, field, options.thickest_wall);
+        let extents = extents(&pieces, field);
+        let borders = border::borders(&pieces.labels, &ground, options.thickest_wall);
         let Merged { region_of, extents, borders } = merge::merged(extents, borders, &options.cut);
         let gaps = |(&pair, border): (&Pair, &'_ Border)| {
             let passable = border.gaps.iter().filter(|gap| gap.width >= options.narrowest).copied();
             passable.map(move |gap| (pair, gap)).collect::<Vec<_>>()
         };
         let gaps: Vec<(Pair, Gap)> = borders.iter().flat_map(gaps).collect();
-        let mut leads_on = vec![false; extents.len()];
-        for &((a, b), _) in &gaps {
-            (leads_on[a as usize], leads_on[b as usize]) = (true, true);
-        }
-        let mut widest = vec![0.0_f64; extents.len()];
-        for (&cell, &region) in pieces.widest.iter().zip(&region_of) {
-            widest[region as usize] = widest[region as usize].max(2.0 * field.clearance_at(cell as usize));
-        }
-        let is_kept = |piece: usize| leads_on[piece] || widest[piece] >= options.kind.narrowest_closed;
+        let is_kept = kept(&pieces, &region_of, &gaps, field, options);
         let mut numbers = vec![NO_PIECE; extents.len()];
-        let mut regions = Vec::new();
-        for piece in (0..extents.len() as u32).filter(|&piece| region_of[piece as usize] == piece) {
-            if is_kept(piece as usize) {
-                numbers[piece as usize] = regions.len() as u32;
-                regions.push(Region::new(extents[piece as usize], &options.kind));
-            }
+        let mut count = 0;
+        for piece in (0..extents.len()).filter(|&piece| region_of[piece] == piece as u32 && is_kept[piece]) {
+            numbers[piece] = count;
+            count += 1;
         }
         let mut labels = pieces.labels;
         for label in labels.iter_mut().filter(|label| **label != NO_PIECE) {
             *label = numbers[region_of[*label as usize] as usize];
         }
+        let explored = rim::explored(&labels, count as usize, &ground, options.narrowest);
+        let extents = numbers.iter().zip(&extents).filter(|(number, _)| **number != NO_PIECE);
+        let regions: Vec<Region> = extents
+            .zip(explored)
+            .map(|((_, &extent), explored)| Region::new(extent, explored, &options.kind))
+            .collect();
         let passage = |&((a, b), gap): &(Pair, Gap)| {
             let pair = [a, b].map(|piece| numbers[piece as usize]);
             let gateway = passage::gateway_of(&gap, pair, &labels, field);
             let narrower =
                 pair.map(|number| regions[number as usize].width).into_iter().fold(f64::MAX, f64::min);
-            let door_probability = door::door_probability(&gateway, narrower, field, &options.door);
+            let door_probability = door::door_probability(&gateway, narrower, &ground, &options.door);
             Passage { regions: pair.map(RegionNumber), gateway, door_probability }
         };
         let passages: Vec<Passage> = gaps.iter().map(passage).collect();
@@ -127,15 +117,34 @@ impl RegionMap {
     }
 }
 
+/// Of the pieces that stand for a region, which are regions: they lead on, or are wide enough to be more than the inside of
+/// a thing.
+fn kept(
+    pieces: &Pieces,
+    region_of: &[u32],
+    gaps: &[(Pair, Gap)],
+    field: &DistanceField,
+    options: &RegionOptions,
+) -> Vec<bool> {
+    let mut is_kept = vec![false; region_of.len()];
+    for &((a, b), _) in gaps {
+        (is_kept[a as usize], is_kept[b as usize]) = (true, true);
+    }
+    for (&cell, &region) in pieces.widest.iter().zip(region_of) {
+        is_kept[region as usize] |= 2.0 * field.clearance_at(cell as usize) >= options.kind.narrowest_closed;
+    }
+    is_kept
+}
+
 /// How large the pieces are and how wide.
-fn extents(pieces: &Pieces, free: &FreeSpace) -> Vec<Extent> {
-    let cell = free.field().lattice().resolution().powi(2);
+fn extents(pieces: &Pieces, field: &DistanceField) -> Vec<Extent> {
+    let cell = field.lattice().resolution().powi(2);
     let mut extents = vec![Extent::default(); pieces.widest.len()];
     for (index, &label) in pieces.labels.iter().enumerate() {
         if label != NO_PIECE {
             let extent = &mut extents[label as usize];
             extent.area += cell;
-            extent.volume += cell * free.field().clearance_at(index);
+            extent.volume += cell * field.clearance_at(index);
         }
     }
     extents

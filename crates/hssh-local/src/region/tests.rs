@@ -10,6 +10,7 @@ use super::merge::{Extent, cut_odds, merged};
 use super::{CutOptions, RegionKind, RegionMap, RegionOptions};
 use crate::distance::DistanceField;
 use crate::grid::{Cell, Lattice, Occupancy, OccupancyGrid};
+use crate::skeleton::UnknownSpace;
 
 /// A grid of 5 cm of which the rectangles (left, bottom, right, top in metres) are free, one after the other painted over by
 /// `then`; all else is wall.
@@ -111,6 +112,47 @@ fn a_ray_belongs_to_the_room_it_came_from() {
     assert_eq!(map.region_at([15.0, 4.05]), map.region_at([11.0, 4.05]));
 }
 
+/// Unknown space between two halves of a hall is a wall in a plan; in a map that is not complete it parts nothing.
+#[test]
+fn unexplored_space_parts_nothing() {
+    let pinched = |what| {
+        floor(
+            [13.0, 6.0],
+            &[[0.5, 0.5, 12.5, 5.5]],
+            &[([6.0, 0.5, 6.6, 2.4], what), ([6.0, 3.3, 6.6, 5.5], what)],
+        )
+    };
+    let count = |what, unknown| {
+        let options = RegionOptions { unknown, ..RegionOptions::default() };
+        let map = RegionMap::new(&pinched(what), &options).unwrap();
+        (map.regions.len(), map.passages.iter().filter(|passage| passage.is_door()).count())
+    };
+    assert_eq!(count(Occupancy::Occupied, UnknownSpace::Unexplored), (2, 1));
+    assert_eq!(count(Occupancy::Unknown, UnknownSpace::Wall), (2, 1));
+    assert_eq!(count(Occupancy::Unknown, UnknownSpace::Unexplored), (1, 0));
+}
+
+/// A room of 4 m square of which the walls on some sides were never seen.
+#[test]
+fn the_part_of_the_rim_that_was_seen_is_told() {
+    let sides = [[0.0, 0.0, 5.0, 0.5], [4.5, 0.0, 5.0, 5.0], [0.0, 4.5, 5.0, 5.0], [0.0, 0.0, 0.5, 5.0]];
+    for unseen in 0..=3_u32 {
+        let unknown: Vec<([f64; 4], Occupancy)> =
+            sides[..unseen as usize].iter().map(|&side| (side, Occupancy::Unknown)).collect();
+        let grid = floor([5.0, 5.0], &[[0.5, 0.5, 4.5, 4.5]], &unknown);
+        let unexplored = RegionOptions { unknown: UnknownSpace::Unexplored, ..RegionOptions::default() };
+        let [region] = &RegionMap::new(&grid, &unexplored).unwrap().regions[..] else { panic!("one room") };
+        assert!(
+            (region.explored - 1.0 + f64::from(unseen) / 4.0).abs() < 0.02,
+            "{unseen}: {}",
+            region.explored
+        );
+        let known = if unseen < 2 { RegionKind::Room } else { RegionKind::Unexplored };
+        assert_eq!(region.kind, known, "{unseen}");
+        assert_eq!(regions(&grid).regions[0].explored, 1.0);
+    }
+}
+
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(200))]
     /// Where every constriction joins, pieces are the connected parts of free space; in any case they are connected.
@@ -154,7 +196,7 @@ proptest! {
             let (a, b) = (a % pieces, b % pieces);
             if a != b {
                 let border = borders.entry((a.min(b), a.max(b))).or_default();
-                border.gaps.push(Gap { cell: 0, width });
+                border.gaps.push(Gap { cell: 0, width, is_between_walls: true });
                 border.wall += wall;
             }
         }

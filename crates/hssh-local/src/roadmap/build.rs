@@ -15,7 +15,7 @@ impl Roadmap {
         let is_obstacle = |index: usize| match grid.cells()[index] {
             Occupancy::Free => false,
             Occupancy::Occupied => true,
-            Occupancy::Unknown => options.unknown == UnknownSpace::Wall,
+            Occupancy::Unknown => options.unknown != UnknownSpace::Free,
         };
         let field = DistanceField::new(*grid.lattice(), is_obstacle);
         let exits = region::exits(map, &field, options);

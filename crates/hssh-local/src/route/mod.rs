@@ -3,6 +3,7 @@
 
 #[cfg(test)]
 mod drawn;
+mod driven;
 mod network;
 mod options;
 mod paths;
@@ -11,5 +12,6 @@ mod travelled;
 mod visits;
 mod walk;
 
+pub use driven::driven_line;
 pub use options::RouteOptions;
 pub(crate) use visits::route;

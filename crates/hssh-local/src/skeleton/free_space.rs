@@ -19,7 +19,7 @@ impl FreeSpace {
         let lattice = *grid.lattice();
         let is_obstacle = |index: usize| match grid.cells()[index] {
             Occupancy::Occupied => true,
-            Occupancy::Unknown => options.unknown == UnknownSpace::Wall,
+            Occupancy::Unknown => options.unknown != UnknownSpace::Free,
             Occupancy::Free => false,
         };
         let mut obstacles = Mask::new(&lattice, is_obstacle);

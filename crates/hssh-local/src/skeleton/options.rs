@@ -12,6 +12,9 @@ pub enum UnknownSpace {
     Wall,
     /// Free: for floor plans in which only walls are drawn.
     Free,
+    /// What it says: no robot goes there, as if it were an obstacle, but it is no wall that parts rooms. For maps of which
+    /// parts were never looked into.
+    Unexplored,
 }
 
 /// How the medial axis is found; lengths in metres, angles in radians.

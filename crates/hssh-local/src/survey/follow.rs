@@ -12,7 +12,7 @@ use crate::carmen::LaserLog;
 use crate::closing::close_loops;
 use crate::global_map::global_map;
 use crate::local_map::LocalMapOptions;
-use crate::matching::{LaserTurn, TrackedScan, track};
+use crate::matching::{LaserTurn, Track, TrackedScan, track};
 use crate::progress::Reply;
 use crate::route::route;
 
@@ -39,18 +39,45 @@ pub fn survey<R: Into<Reply>>(
     mut progress: impl FnMut(SurveyStage, usize) -> R,
 ) -> Result<Survey, SurveyError> {
     let mut stopped = false;
-    let mut tell = |stage, scans| {
-        let reply = progress(stage, scans).into();
+    let track = track(log, &options.matching, |scans| {
+        let reply = progress(SurveyStage::Tracking, scans).into();
         stopped |= reply == Reply::Stop;
         reply
-    };
-    let mut track = track(log, &options.matching, |scans| tell(SurveyStage::Tracking, scans));
+    });
     let beginning;
     let log = if track.scans.len() < log.scans.len() {
         beginning = log.beginning(track.scans.len());
         &beginning
     } else {
         log
+    };
+    let mut survey = survey_tracked(log, track, options, &mut progress)?;
+    let is_told = |warning: &SurveyWarning| matches!(warning, SurveyWarning::Interrupted { .. });
+    if stopped && !survey.warnings.iter().any(is_told) {
+        survey.warnings.push(SurveyWarning::Interrupted { scans: log.scans.len() });
+    }
+    Ok(survey)
+}
+
+/// Surveys a log of which every scan was tracked, as [`survey`] does.
+///
+/// # Errors
+/// As [`survey`].
+///
+/// # Panics
+/// If the track is that of another log.
+pub fn survey_tracked<R: Into<Reply>>(
+    log: &LaserLog,
+    mut track: Track,
+    options: &SurveyOptions,
+    mut progress: impl FnMut(SurveyStage, usize) -> R,
+) -> Result<Survey, SurveyError> {
+    assert_eq!(track.scans.len(), log.scans.len(), "a pose for each scan");
+    let mut stopped = false;
+    let mut tell = |stage, scans| {
+        let reply = progress(stage, scans).into();
+        stopped |= reply == Reply::Stop;
+        reply
     };
     let closed = close_loops(log, &track, &options.closing, |scans| tell(SurveyStage::Closing, scans))?;
     for (scan, pose) in track.scans.iter_mut().zip(closed.poses()) {

@@ -15,7 +15,7 @@ mod visit;
 
 pub use error::{SurveyError, SurveyWarning};
 pub use evidence::{Evidence, PerceptionModel};
-pub use follow::{SurveyStage, survey};
+pub use follow::{SurveyStage, survey, survey_tracked};
 pub use lost::doubts;
 pub use options::SurveyOptions;
 pub use resemblance::{Resemblance, resemblance};

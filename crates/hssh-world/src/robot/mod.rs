@@ -28,6 +28,7 @@ mod outlook;
 mod record;
 mod run;
 mod strategy;
+mod tour;
 
 pub use body::touches;
 pub use drive::{Drive, DriveError, drive, drive_until};
@@ -36,3 +37,4 @@ pub use odometer::Odometer;
 pub use options::RobotOptions;
 pub use record::{Ending, Moment, Stop};
 pub use strategy::Strategy;
+pub use tour::{Tour, round_trip};

@@ -16,7 +16,7 @@ pub use drive::{DriveAccount, DrivePlace, DriveStop};
 pub use names::{NamesError, PointName};
 pub use places::{
     ConnectionAccount, ConstrictionAccount, GatewayAccount, GridSize, PlaceAccount, PlacesAccount,
-    StarEndAccount,
+    PlacesError, StarEndAccount,
 };
 pub use pose_graph::{JudgedEdge, LabeledPoint, LabeledPose, PoseGraphAccount, SkippedRecord};
 pub use regions::{PassageAccount, RegionAccount};

@@ -130,7 +130,47 @@ pub struct GatewayAccount {
     pub line: [[f64; 2]; 2],
 }
 
+/// Why a text is no account of places.
+#[derive(Debug, thiserror::Error)]
+pub enum PlacesError {
+    /// It is not the JSON of one.
+    #[error("this is no account of places: {0}")]
+    Json(#[from] serde_json::Error),
+    /// Another format.
+    #[error("the format is `{0}`, not `{format}`", format = PlacesAccount::FORMAT)]
+    OtherFormat(String),
+    /// Another version.
+    #[error("the account has version {0}, this library reads version {version}", version = PlacesAccount::VERSION)]
+    OtherVersion(u32),
+}
+
 impl PlacesAccount {
+    /// What accounts of places call their format.
+    pub const FORMAT: &str = "hssh-places";
+    /// The version of the format that this library writes.
+    pub const VERSION: u32 = 2;
+
+    /// Reads what `hssh stars --json` prints.
+    ///
+    /// # Errors
+    /// If the text is no JSON, no account of places, or one of another version.
+    pub fn from_json(text: &str) -> Result<Self, PlacesError> {
+        /// What every version of the format has.
+        #[derive(Deserialize)]
+        struct Head {
+            format: String,
+            version: u32,
+        }
+        let Head { format, version } = serde_json::from_str(text)?;
+        if format != Self::FORMAT {
+            return Err(PlacesError::OtherFormat(format));
+        }
+        if version != Self::VERSION {
+            return Err(PlacesError::OtherVersion(version));
+        }
+        Ok(serde_json::from_str(text)?)
+    }
+
     /// The regions of a grid map, with a place for each and for each junction of a corridor.
     #[must_use]
     pub fn of_regions(name: &str, map: &RegionMap, roadmap: &Roadmap, radius: f64) -> Self {
@@ -229,8 +269,8 @@ impl PlacesAccount {
     #[must_use]
     pub fn along_log(name: &str, places: Vec<PlaceAccount>) -> Self {
         PlacesAccount {
-            format: "hssh-places".to_owned(),
-            version: 2,
+            format: Self::FORMAT.to_owned(),
+            version: Self::VERSION,
             name: name.to_owned(),
             grid: None,
             regions: Vec::new(),

@@ -1,6 +1,6 @@
 //! Regions of a grid map and the passages between them.
 
-use hssh_local::{Passage, RegionKind, RegionMap, RegionNumber, RoadNodeKind, Roadmap};
+use hssh_local::{Passage, RegionMap, RegionNumber, RoadNodeKind, Roadmap};
 use serde::{Deserialize, Serialize};
 
 use super::GatewayAccount;
@@ -53,16 +53,10 @@ impl RegionAccount {
         let account = |(number, outline): (u32, hssh_local::Outline)| {
             let number = RegionNumber(number);
             let region = map.region(number);
-            let kind = match region.kind {
-                RegionKind::Room => "room",
-                RegionKind::Corridor => "corridor",
-                RegionKind::Hall => "hall",
-                RegionKind::Doorway => "doorway",
-            };
             let places = (0..).zip(&roadmap.places).filter(|(_, place)| place.region == number);
             let [red, green, blue] = number.color();
             RegionAccount {
-                kind: kind.to_owned(),
+                kind: region.kind.name().to_owned(),
                 name: None,
                 area: region.area,
                 width: region.width,
@@ -101,7 +95,7 @@ impl PassageAccount {
             }
         }
         let account = |(passage, is_passable): (&Passage, bool)| PassageAccount {
-            kind: if passage.is_door() { "door" } else { "opening" }.to_owned(),
+            kind: passage.kind().to_owned(),
             door_probability: passage.door_probability,
             regions: passage.regions.map(|region| region.0),
             is_passable,

@@ -100,6 +100,10 @@ pub struct AnsweredMap {
     pub visits: Vec<AnsweredVisit>,
     /// Where the robot is at the end.
     pub current: CurrentPosition,
+    /// With a log, if asked for: when every scan was taken and where, as (time, x, y, θ) in the frame of the first place. The time is
+    /// that of the log, or the number of the scan; scans that cannot be used have the pose of the scan before.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub trajectory: Vec<[f64; 4]>,
     /// What tells it from the first map.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub difference: Option<MapDifference>,

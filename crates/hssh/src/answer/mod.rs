@@ -3,6 +3,7 @@
 //! `docs/answer-format.md` in the repository explains every field: its meaning, unit, frame and range. Places,
 //! visits, travels, scans and ends are counted from 0, sentences count as people do.
 
+mod building;
 mod certificate;
 mod difference;
 mod error;
@@ -13,6 +14,7 @@ mod picture;
 mod place;
 mod reading;
 mod rebuild;
+mod reservation;
 mod search;
 mod text;
 mod verdict;
@@ -20,6 +22,7 @@ mod visit;
 mod warning;
 mod words;
 
+pub use building::{AnsweredBuilding, AnsweredPassage, AnsweredRegion, AnsweredStay};
 pub use certificate::{Assumption, CertificateSummary, Trusted, Worth};
 pub use difference::{MapDifference, PartingVisit, TestTravels};
 pub use error::{AnswerError, DisagreementError};
@@ -59,6 +62,9 @@ pub struct Answer {
     pub maps: Vec<AnsweredMap>,
     /// What the robot visited, the start first, and where that is in the first map.
     pub visits: Vec<VisitRecord>,
+    /// Of a log: the building, as all scans draw it where the first map has them.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub building: Option<AnsweredBuilding>,
     /// What of the exploration is taken for misread, if errors of perception were reckoned with: then travels, visits and maps are those
     /// of the exploration as it must have been.
     #[serde(default, skip_serializing_if = "Option::is_none")]

@@ -1,10 +1,14 @@
 //! Pictures of answered maps: as SVG and as Graphviz DOT.
 
-use hssh_draw::{Bearings, Drawing, DrawingError, MapOptions, draw_map, map_to_dot};
+use hssh_draw::{
+    Bearings, BuildingPicture, Drawing, DrawingError, MapOptions, RegionPicture, draw_map, map_to_dot,
+};
+use hssh_local::RegionNumber;
 use hssh_metrics::Pose;
-use hssh_topology::PlaceId;
+use hssh_topology::{PlaceId, TopologicalMap};
 use nalgebra::Matrix2;
 
+use super::building::{AnsweredBuilding, AnsweredRegion};
 use super::error::DisagreementError;
 use super::map::AnsweredMap;
 use super::rebuild::RebuiltMap;
@@ -55,6 +59,38 @@ impl MapPicture {
             ..MapOptions::default()
         };
         Ok(MapPicture { rebuilt, drawing, options })
+    }
+
+    /// The map, grown as it was found.
+    #[must_use]
+    pub fn map(&self) -> &TopologicalMap {
+        &self.rebuilt.map
+    }
+
+    /// Where its places are drawn, and which way their ends point.
+    #[must_use]
+    pub fn drawing(&self) -> &Drawing {
+        &self.drawing
+    }
+
+    /// The same picture with the building under it, in whose frame the map is: that of the answer, under its first map.
+    #[must_use]
+    pub fn in_building(mut self, building: &AnsweredBuilding) -> Self {
+        let region = |(number, region): (u32, &AnsweredRegion)| {
+            let [red, green, blue] = RegionNumber(number).color();
+            RegionPicture {
+                rings: region.outline.iter().chain(&region.holes).cloned().collect(),
+                color: format!("#{red:02x}{green:02x}{blue:02x}"),
+                // Of what was only seen, there may be much and small.
+                name: if region.stays > 0 { region.title(number as usize) } else { String::new() },
+            }
+        };
+        let doors = building.passages.iter().filter(|passage| passage.kind == "door");
+        self.options.building = Some(BuildingPicture {
+            regions: (0..).zip(&building.regions).map(region).collect(),
+            doors: doors.map(|door| door.line).collect(),
+        });
+        self
     }
 
     /// As SVG.

@@ -39,6 +39,9 @@ pub struct AnsweredEnd {
     /// The end at the other side of its link.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub leads_to: Option<EndReference>,
+    /// With a log: the two ends of the gateway, the line across the way out, in the frame of the place; metres.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub gateway: Option<[[f64; 2]; 2]>,
 }
 
 /// A pose in the frame of the first place, and how well it is known.
@@ -65,15 +68,22 @@ pub struct AnsweredPlace {
     /// The frame of the place, in which its bearings are given; absent without odometry.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub pose: Option<PlacedPose>,
+    /// With a log: the region of the building that the first visit to it was in; absent if it was in none.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub region: Option<u32>,
 }
 
 /// Two gateways that lead to one another.
-#[derive(Clone, PartialEq, Eq, Debug, Serialize, Deserialize)]
+#[derive(Clone, PartialEq, Debug, Serialize, Deserialize)]
 pub struct AnsweredLink {
     /// The one that was travelled from first.
     pub from: EndReference,
     /// The other.
     pub to: EndReference,
+    /// With a log: the corners of the way as it was driven, from the one place to the other, on the shortest of the travels and without
+    /// its detours; metres in the frame of the first place.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub way: Vec<[f64; 2]>,
 }
 
 /// A path: places joined by going straight on.

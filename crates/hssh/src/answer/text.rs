@@ -31,6 +31,7 @@ impl Answer {
         text += &self.misread();
         text += &self.conclusion(listing);
         text += &self.ranking(listing);
+        text += &self.building.as_ref().map(|building| building.to_text(&self.visits)).unwrap_or_default();
         text
     }
 

@@ -21,6 +21,9 @@ pub struct VisitRecord {
     /// With a log that has them: when these two scans were taken, in seconds of the recording program's clock.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub times: Option<[f64; 2]>,
+    /// With a log: the region of the building that the place is in; absent if it is in none.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub region: Option<u32>,
 }
 
 /// How a visit follows from the visits before it.

@@ -43,6 +43,8 @@ pub enum WarningKind {
     ImprobableTravel,
     /// The places of a map have no poses although travels were measured.
     NoPoses,
+    /// The building that the log shows cannot be drawn, or has nowhere to be.
+    NoBuilding,
     /// More threads were asked for than are of use.
     FewerThreads,
 }

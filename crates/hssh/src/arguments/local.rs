@@ -2,9 +2,12 @@
 
 use std::path::PathBuf;
 
-use clap::{Args, ValueEnum};
+use clap::Args;
+use hssh::file::TopicChoice;
 use hssh::pipeline::{LaserChoice, PlaceChoice};
 use hssh_local::{PlaceOptions, RegionOptions, RoadmapOptions, UnknownSpace};
+
+use super::export::FilesArguments;
 
 #[derive(Debug, Args)]
 pub(crate) struct ExploreArguments {
@@ -122,29 +125,14 @@ pub(crate) struct StarsArguments {
     /// Names of regions: a text file with a line `x,y,name` for a point in each, in metres.
     #[arg(long, value_name = "FILE")]
     pub(crate) names: Option<PathBuf>,
-    /// Write the map as another program reads it, such as `--export nav2=graph.geojson`; may be given several times.
-    /// nav2: graph of its Route Server; open-rmf: navigation graph; tmap: map of topological_navigation; osmag: areas
-    /// and passages; regions: GeoJSON polygons; labels: PNG with a color for each region.
-    #[arg(long, value_name = "KIND=FILE", value_parser = export)]
-    pub(crate) export: Vec<(ExportKind, PathBuf)>,
+    #[command(flatten)]
+    pub(crate) files: FilesArguments,
     /// Print one JSON object.
     #[arg(long)]
     pub(crate) json: bool,
     /// Draw the map with its medial axis, gateways and stars as SVG.
     #[arg(long, value_name = "FILE")]
     pub(crate) svg: Option<PathBuf>,
-}
-
-/// For which program a map is written.
-#[derive(Clone, Copy, PartialEq, Eq, Debug, ValueEnum)]
-pub(crate) enum ExportKind {
-    Nav2,
-    OpenRmf,
-    Tmap,
-    #[value(name = "osmag")]
-    OsmAg,
-    Regions,
-    Labels,
 }
 
 impl StarsArguments {
@@ -187,9 +175,10 @@ pub(crate) struct TopicArguments {
 }
 
 impl TopicArguments {
-    /// Whether anything is chosen.
-    pub(crate) fn is_given(&self) -> bool {
-        self.scan.is_some() || self.odom.is_some() || self.base_frame.is_some()
+    /// The choice that they make.
+    pub(crate) fn choice(&self) -> TopicChoice {
+        let TopicArguments { scan, odom, base_frame } = self.clone();
+        TopicChoice { scan, odometry: odom, base_frame }
     }
 }
 
@@ -255,16 +244,6 @@ fn point(text: &str) -> Result<[f64; 2], String> {
     let number = |text: &str| text.trim().parse::<f64>().ok().filter(|number| number.is_finite());
     let coordinates = text.split_once(',').and_then(|(x, y)| number(x).zip(number(y)));
     coordinates.map(|(x, y)| [x, y]).ok_or_else(|| "write two numbers of metres, like 2.5,-1".to_owned())
-}
-
-fn export(text: &str) -> Result<(ExportKind, PathBuf), String> {
-    let kinds = || {
-        let names = ExportKind::value_variants().iter().filter_map(ValueEnum::to_possible_value);
-        names.map(|name| name.get_name().to_owned()).collect::<Vec<_>>().join(", ")
-    };
-    let usage = || format!("write KIND=FILE, where KIND is one of {}", kinds());
-    let (kind, file) = text.split_once('=').filter(|(_, file)| !file.is_empty()).ok_or_else(usage)?;
-    Ok((ExportKind::from_str(kind, false).map_err(|_| usage())?, PathBuf::from(file)))
 }
 
 fn view(text: &str) -> Result<f64, String> {

@@ -1,19 +1,25 @@
 //! The command line.
 
+mod export;
 mod local;
+mod page;
 mod search;
 
 use std::path::PathBuf;
 
-use clap::{Args, Parser, Subcommand, ValueEnum};
+use clap::{Args, Parser, Subcommand};
+use hssh::graph::{GraphOptions, KernelChoice, MethodChoice, StartChoice, WrongClosures};
 use hssh::pipeline::MappingOptions;
 
 use crate::failure::Failure;
+use crate::progress::is_interrupted;
 
+pub(crate) use export::{ExportArguments, FilesArguments};
 pub(crate) use local::{
-    ExploreArguments, ExportKind, LaserArguments, PlaceArguments, SimulateArguments, StarsArguments,
-    TopicArguments, TrackArguments,
+    ExploreArguments, LaserArguments, PlaceArguments, SimulateArguments, StarsArguments, TopicArguments,
+    TrackArguments,
 };
+pub(crate) use page::PageArguments;
 pub(crate) use search::SearchArguments;
 
 /// Topological maps of places that look alike: all that explain an exploration, ranked and drawn.
@@ -28,6 +34,8 @@ pub(crate) struct Arguments {
 pub(crate) enum Command {
     /// Find the maps that explain an exploration, print the best and draw them.
     Map(Box<MapArguments>),
+    /// Map while the robot drives: what comes from it through a pipe, shown on a page of this machine.
+    Live(Box<LiveArguments>),
     /// Read an exploration and say what is in it, or what is wrong with it.
     Check(CheckArguments),
     /// Tell step by step how the best map explains an exploration.
@@ -36,6 +44,8 @@ pub(crate) enum Command {
     Graph(GraphArguments),
     /// Find the places of a grid map: their gateways, their stars, and what connects them.
     Stars(StarsArguments),
+    /// Write a map as another program reads it: nav2, Open-RMF, topological_navigation, osmAG, GraphML, GeoJSON.
+    Export(ExportArguments),
     /// Correct the odometry of a robot's laser log by matching scan with scan: no places, no loops.
     Track(TrackArguments),
     /// Make an exploration from a robot's laser log: find the places it visited, and their stars.
@@ -46,6 +56,10 @@ pub(crate) enum Command {
     Verify(VerifyArguments),
     /// Print the options that --options reads, each with its default.
     Options(OptionsArguments),
+    /// Print a script that completes commands and options in a shell.
+    Completions(CompletionsArguments),
+    /// Print the manual page, or write one for each command.
+    Man(ManArguments),
 }
 
 #[derive(Debug, Args)]
@@ -109,6 +123,13 @@ pub(crate) struct MapArguments {
     /// each visit, the map, and the building.
     #[arg(long, value_name = "FOLDER")]
     pub(crate) debug_dir: Option<PathBuf>,
+    /// With a laser log: put where every scan was taken into the answer, so that `hssh export --to tum` finds it there.
+    #[arg(long)]
+    pub(crate) with_trajectory: bool,
+    #[command(flatten)]
+    pub(crate) files: FilesArguments,
+    #[command(flatten)]
+    pub(crate) page: PageArguments,
     #[command(flatten)]
     pub(crate) places: PlaceArguments,
     #[command(flatten)]
@@ -116,10 +137,38 @@ pub(crate) struct MapArguments {
 }
 
 #[derive(Debug, Args)]
+pub(crate) struct LiveArguments {
+    #[command(flatten)]
+    pub(crate) map: MapArguments,
+    /// Serve the page on this port of this machine; 0 takes one that is free.
+    #[arg(long, value_name = "PORT", default_value_t = 0)]
+    pub(crate) port: u16,
+    /// Serve the page until Ctrl-C, also when nothing comes any more.
+    #[arg(long)]
+    pub(crate) stay: bool,
+    /// Make the map anew when the robot has gone so many metres since the last one.
+    #[arg(long, value_name = "METRES", default_value_t = 2.0, value_parser = positive)]
+    pub(crate) every: f64,
+}
+
+#[derive(Debug, Args)]
 pub(crate) struct OptionsArguments {
     /// Print one JSON object.
     #[arg(long)]
     pub(crate) json: bool,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct CompletionsArguments {
+    /// The shell, such as `hssh completions bash > ~/.local/share/bash-completion/completions/hssh`.
+    pub(crate) shell: clap_complete::Shell,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct ManArguments {
+    /// Write hssh.1 and a page for each command into this folder.
+    #[arg(short, long, value_name = "FOLDER")]
+    pub(crate) output: Option<PathBuf>,
 }
 
 #[derive(Debug, Args)]
@@ -178,11 +227,11 @@ pub(crate) struct GraphArguments {
     pub(crate) strict: bool,
 
     /// How to minimize χ².
-    #[arg(long, value_enum, default_value_t = MethodOption::Safeguarded, value_name = "HOW", help_heading = "Solver")]
-    pub(crate) method: MethodOption,
+    #[arg(long, value_enum, default_value_t = MethodChoice::Safeguarded, value_name = "HOW", help_heading = "Solver")]
+    pub(crate) method: MethodChoice,
     /// Which poses to start from.
-    #[arg(long, value_enum, default_value_t = StartOption::Best, value_name = "WHERE", help_heading = "Solver")]
-    pub(crate) start: StartOption,
+    #[arg(long, value_enum, default_value_t = StartChoice::Best, value_name = "WHERE", help_heading = "Solver")]
+    pub(crate) start: StartChoice,
     /// Stop after N linear systems (with relaxation: sweeps; with --robust: rounds as well).
     #[arg(long, value_name = "N", help_heading = "Solver")]
     pub(crate) max_iterations: Option<usize>,
@@ -192,7 +241,7 @@ pub(crate) struct GraphArguments {
 
     /// Let closures count the less the worse they fit.
     #[arg(long, value_enum, value_name = "KERNEL", help_heading = "Wrong closures")]
-    pub(crate) robust: Option<KernelOption>,
+    pub(crate) robust: Option<KernelChoice>,
     /// With --robust: from how many standard deviations on.
     #[arg(long, value_name = "N", default_value_t = 3.0, value_parser = positive, requires = "robust", help_heading = "Wrong closures")]
     pub(crate) deviations: f64,
@@ -218,46 +267,6 @@ pub(crate) struct GraphArguments {
     pub(crate) dot: Option<PathBuf>,
 }
 
-/// How χ² is minimized.
-#[derive(Clone, Copy, PartialEq, Eq, Debug, ValueEnum)]
-pub(crate) enum MethodOption {
-    /// One linear system, as in the thesis's appendix B.
-    LinearizeOnce,
-    /// Full steps, whether or not χ² falls.
-    GaussNewton,
-    /// Full steps while χ² falls, then damped ones.
-    LevenbergMarquardt,
-    /// Gauss–Newton, guarded by Levenberg–Marquardt.
-    Safeguarded,
-    /// One pose after the other.
-    Relaxation,
-}
-
-/// Where a descent begins.
-#[derive(Clone, Copy, PartialEq, Eq, Debug, ValueEnum)]
-pub(crate) enum StartOption {
-    /// Chordal poses; the file's as well, if they fit better than what was found. With --robust and --graduated
-    /// dead reckoning, which wrong closures cannot spoil.
-    Best,
-    /// Chordal relaxation: from the edges alone.
-    Chordal,
-    /// The poses in the file.
-    File,
-    /// Dead reckoning.
-    Odometry,
-}
-
-/// How a measurement that fits badly loses its weight.
-#[derive(Clone, Copy, PartialEq, Eq, Debug, ValueEnum)]
-pub(crate) enum KernelOption {
-    /// It pulls with a constant force.
-    Huber,
-    /// It pulls the less the worse it fits.
-    Cauchy,
-    /// Dynamic covariance scaling: in the end it is switched off.
-    Dcs,
-}
-
 pub(crate) fn positive(text: &str) -> Result<f64, String> {
     let number: Option<f64> = text.parse().ok();
     let is_right = |number: &f64| *number > 0.0 && number.is_finite();
@@ -268,6 +277,24 @@ pub(crate) fn not_negative(text: &str) -> Result<f64, String> {
     let number: Option<f64> = text.parse().ok();
     let is_right = |number: &f64| *number >= 0.0 && number.is_finite();
     number.filter(is_right).ok_or_else(|| "write a number that is not negative, like 0.5".to_owned())
+}
+
+impl GraphArguments {
+    /// What is asked for.
+    pub(crate) fn options(&self) -> GraphOptions {
+        GraphOptions {
+            method: self.method,
+            start: self.start,
+            max_iterations: self.max_iterations,
+            tolerance: self.tolerance,
+            wrong: match self.robust {
+                Some(kernel) => WrongClosures::Weighed { kernel, deviations: self.deviations },
+                None if self.graduated => WrongClosures::Refused { threshold: self.threshold },
+                None => WrongClosures::None,
+            },
+            interrupted: is_interrupted,
+        }
+    }
 }
 
 impl MapArguments {

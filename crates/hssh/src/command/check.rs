@@ -1,20 +1,22 @@
 //! `hssh check`: what is in an exploration or a bag, or what is wrong with it.
 
 use hssh::account::ContentsAccount;
+#[cfg(feature = "bags")]
+use hssh::file::read_bag_account;
 use hssh_causal::schema::{Sight, Trace, Turning, view_graph_dot};
 
 use crate::arguments::CheckArguments;
 use crate::failure::{Failure, Status};
-use crate::input::read_exploration;
 #[cfg(feature = "bags")]
-use crate::input::{Source, read_account};
+use crate::input::Source;
+use crate::input::read_exploration;
 use crate::output::{check_outputs, print, print_json, write_file};
 
 pub(crate) fn run(arguments: &CheckArguments) -> Result<Status, Failure> {
     check_outputs(&[&arguments.file], [arguments.dot.as_ref()])?;
     #[cfg(feature = "bags")]
     if let Some(source) = bag(arguments)? {
-        let account = read_account(&arguments.file, source, &arguments.topics)?;
+        let account = read_bag_account(&arguments.file, source, &arguments.topics.choice())?;
         if arguments.json {
             print_json(&account)?;
         } else {

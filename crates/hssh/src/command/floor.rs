@@ -3,14 +3,16 @@
 use std::path::Path;
 
 use hssh::account::{PlacesAccount, PointName};
-use hssh::export::{nav2_graph, open_rmf_graph, osm_ag, regions_geojson, topological_map};
 use hssh_draw::{GridPicture, RegionPicture, draw_grid};
-use hssh_local::{DoorOptions, OccupancyGrid, PlaceGraph, PlaceOptions, RegionMap, Roadmap, doors};
+use hssh_local::{
+    DoorOptions, OccupancyGrid, PlaceGraph, PlaceOptions, RegionMap, Roadmap, doors, without_rims,
+};
 
+use super::export::write_places;
 use super::stars::{failure, tell};
-use crate::arguments::{ExportKind, StarsArguments};
+use crate::arguments::StarsArguments;
 use crate::failure::{Failure, Status};
-use crate::output::{write_bytes, write_file};
+use crate::output::write_file;
 use crate::terminal::say;
 
 /// The color of a way.
@@ -24,13 +26,17 @@ pub(super) fn run(
     let map =
         RegionMap::new(grid, &options.region_options()).map_err(|error| failure(&options.map, error))?;
     let roadmap = Roadmap::new(grid, &map, &options.roadmap_options());
-    let graph = match options.detail {
-        true => Some(PlaceGraph::new(grid, parameters).map_err(|error| failure(&options.map, error))?),
-        false => None,
+    // For the axis, too, a gray rim is the edge of a wall and no frontier.
+    let ground = options.detail.then(|| without_rims(grid, options.region_options().rim));
+    let graph = match &ground {
+        Some(ground) => {
+            Some(PlaceGraph::new(ground, parameters).map_err(|error| failure(&options.map, error))?)
+        }
+        None => None,
     };
     let name = options.map.display().to_string();
-    let mut account = match &graph {
-        Some(graph) => PlacesAccount::of_axis(&name, &map, &roadmap, graph, grid),
+    let mut account = match graph.as_ref().zip(ground.as_ref()) {
+        Some((graph, ground)) => PlacesAccount::of_axis(&name, &map, &roadmap, graph, ground),
         None => PlacesAccount::of_regions(&name, &map, &roadmap, options.radius),
     };
     if let Some(file) = &options.names {
@@ -40,9 +46,7 @@ pub(super) fn run(
     if let Some(file) = &options.svg {
         write_file(file, &picture(grid, &map, &roadmap, graph.as_ref(), &account))?;
     }
-    for (kind, file) in &options.export {
-        export(*kind, file, &map, &account)?;
-    }
+    write_places(&options.files, &map, &account)?;
     Ok(if account.places.is_empty() { Status::NothingConsistent } else { Status::Found })
 }
 
@@ -99,18 +103,4 @@ fn picture(
             draw_grid(grid, &GridPicture { dots, constrictions: &doors, ways, ..picture })
         }
     }
-}
-
-/// Writes a map for another program.
-fn export(kind: ExportKind, file: &Path, map: &RegionMap, account: &PlacesAccount) -> Result<(), Failure> {
-    let text = match kind {
-        ExportKind::Labels => return write_bytes(file, &map.encode_png()),
-        ExportKind::Nav2 => nav2_graph(account),
-        ExportKind::OpenRmf => open_rmf_graph(account),
-        ExportKind::Tmap => topological_map(account),
-        ExportKind::OsmAg => Ok(osm_ag(account)),
-        ExportKind::Regions => Ok(regions_geojson(account)),
-    };
-    let text = text.map_err(|error| Failure::Usage(format!("cannot write {}: {error}", file.display())))?;
-    write_file(file, &text)
 }

@@ -3,9 +3,13 @@
 pub(crate) mod check;
 pub(crate) mod explain;
 pub(crate) mod explore;
+pub(crate) mod export;
 mod floor;
 pub(crate) mod graph;
+pub(crate) mod live;
 pub(crate) mod map;
+mod page;
+pub(crate) mod shell;
 pub(crate) mod simulate;
 mod stages;
 pub(crate) mod stars;

@@ -8,10 +8,11 @@ use hssh::pipeline::{MappingOptions, SurveyedLog};
 use hssh_draw::{GridPicture, draw_grid};
 use hssh_local::{
     DistanceField, LocalMapOptions, Neighborhood, Occupancy, OccupancyGrid, PlaceOptions, Visit, global_map,
-    neighborhood, read_floor_plan,
+    neighborhood, read_floor_plan, without_rims,
 };
 use hssh_metrics::Pose;
 
+use super::export::refuse_unfit;
 use super::floor;
 use crate::arguments::StarsArguments;
 use crate::failure::{Failure, Status};
@@ -25,19 +26,20 @@ const MARGIN: f64 = 6.5;
 pub(crate) fn run(options: &StarsArguments) -> Result<Status, Failure> {
     let inputs: Vec<&Path> =
         std::iter::once(&options.map).chain(&options.names).map(PathBuf::as_path).collect();
-    let exported = options.export.iter().map(|(_, file)| Some(file));
+    refuse_unfit(&options.files, false)?;
+    let exported = options.files.export.iter().map(|(_, file)| Some(file));
     check_outputs(&inputs, std::iter::once(options.svg.as_ref()).chain(exported))?;
     let source = Source::open(&options.map)?;
     let is_yaml = options.map.extension().is_some_and(|ending| ending == "yaml" || ending == "yml");
     let grid = match source.kind() {
-        FileKind::LaserLog(_) | FileKind::Recording(_) | FileKind::Table => {
+        FileKind::LaserLog(_) | FileKind::Recording(_) | FileKind::Table | FileKind::JsonLines => {
             refuse_region_options(options, "a laser log")?;
             return along(options, source);
         }
         FileKind::MapDescription => read(&options.map, true, options.resolution)?,
         FileKind::Text | FileKind::Empty if is_yaml => read(&options.map, true, options.resolution)?,
         FileKind::Image(_) => read(&options.map, false, options.resolution)?,
-        _ => return Err(source.unfit("a grid map (YAML or image) or a laser log")),
+        _ => return Err(source.unfit("a grid map (YAML or image) or a laser log").into()),
     };
     let parameters = options.parameters();
     match options.at {
@@ -69,7 +71,7 @@ fn refuse_region_options(options: &StarsArguments, given: &str) -> Result<(), Fa
     let useless = [
         (options.detail, "--detail"),
         (options.names.is_some(), "--names"),
-        (!options.export.is_empty(), "--export"),
+        (!options.files.export.is_empty(), "--export"),
     ];
     match useless.iter().find(|(is_given, _)| *is_given) {
         Some((_, option)) => Err(Failure::Usage(format!(
@@ -120,6 +122,7 @@ fn around(
     let outside = || Failure::Usage(format!("the point ({}, {}) is not on the map", point[0], point[1]));
     let side = 2.0 * (parameters.skeleton.shallowest_branch + MARGIN);
     let window = grid.window(point, side).ok_or_else(outside)?;
+    let window = without_rims(&window, options.region_options().rim);
     let found = neighborhood(&window, point, parameters).map_err(|error| failure(&options.map, error))?;
     let Neighborhood { kind, center, clearance, star, .. } = &found;
     let place = PlaceAccount::new(*kind, *center, *clearance, star);

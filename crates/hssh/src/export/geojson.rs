@@ -1,52 +1,63 @@
-//! Regions, passages and places as GeoJSON in the frame of the map, for whatever draws polygons.
+//! Places and ways as GeoJSON in the frame of the map, for whatever draws points and lines.
 
-use serde_json::{Value, json};
+use serde_json::{Map, Value, json};
 
-use super::region_names;
-use crate::account::PlacesAccount;
+use super::error::ExportError;
+use super::route_graph::{RouteGraph, RouteNode, RouteWay};
 
-/// Regions as polygons, passages as lines and places as points; coordinates are metres in the frame of the map.
-#[must_use]
-pub fn regions_geojson(account: &PlacesAccount) -> String {
-    let feature = |properties: Value, kind: &str, coordinates: Value| {
-        json!({
-            "type": "Feature",
-            "properties": properties,
-            "geometry": { "type": kind, "coordinates": coordinates },
-        })
-    };
-    let names = region_names(account);
+/// Nodes as points and ways as lines, in their order; coordinates are metres in the frame of the map. What is not known is left out.
+///
+/// # Errors
+/// If a node has no position.
+pub fn route_geojson(graph: &RouteGraph) -> Result<String, ExportError> {
     let mut features = Vec::new();
-    for (number, (region, name)) in account.regions.iter().zip(&names).enumerate() {
-        // Which ring a hole is in does not matter to who fills by the even-odd rule; the largest is the likely one.
-        let mut polygons: Vec<Vec<Vec<[f64; 2]>>> =
-            region.outline.iter().map(|ring| vec![closed(ring)]).collect();
-        if let Some(largest) = polygons.first_mut() {
-            largest.extend(region.holes.iter().map(|ring| closed(ring)));
-        }
-        let properties = json!({
-            "what": "region", "number": number, "kind": region.kind, "name": name, "area": region.area,
-            "width": region.width, "color": region.color,
-        });
-        features.push(feature(properties, "MultiPolygon", json!(polygons)));
+    for (number, node) in graph.nodes.iter().enumerate() {
+        features.push(feature(of_node(number, node), "Point", json!(graph.position(number)?)));
     }
-    for (number, passage) in account.passages.iter().enumerate() {
-        let properties = json!({
-            "what": "passage", "number": number, "kind": passage.kind, "door_probability": passage.door_probability,
-            "regions": passage.regions, "width": passage.gateway.width,
-        });
-        features.push(feature(properties, "LineString", json!(passage.gateway.line)));
+    for (number, way) in graph.ways.iter().enumerate().filter(|(_, way)| way.line.len() > 1) {
+        features.push(feature(of_way(number, way), "LineString", json!(way.line)));
     }
-    for (number, place) in account.places.iter().enumerate() {
-        let properties = json!({
-            "what": "place", "number": number, "kind": place.kind, "star": place.star, "region": place.region,
-        });
-        features.push(feature(properties, "Point", json!(place.center)));
-    }
-    json!({ "type": "FeatureCollection", "name": account.name, "features": features }).to_string() + "\n"
+    let file = json!({
+        "type": "FeatureCollection",
+        "name": graph.provenance.source,
+        "hssh": graph.provenance,
+        "features": features,
+    });
+    Ok(file.to_string() + "\n")
 }
 
-/// A ring with its first corner repeated, as GeoJSON has it.
-fn closed(ring: &[[f64; 2]]) -> Vec<[f64; 2]> {
-    ring.iter().chain(ring.first()).copied().collect()
+pub(super) fn feature(properties: Value, kind: &str, coordinates: Value) -> Value {
+    json!({
+        "type": "Feature",
+        "properties": properties,
+        "geometry": { "type": kind, "coordinates": coordinates },
+    })
+}
+
+fn of_node(number: usize, node: &RouteNode) -> Value {
+    known([
+        ("what", Some(json!(node.kind))),
+        ("number", Some(json!(number))),
+        ("name", Some(json!(node.name))),
+        ("star", node.star.as_ref().map(|star| json!(star))),
+        ("theta", node.heading.map(|theta| json!(theta))),
+        ("pending", node.pending.map(|pending| json!(pending))),
+    ])
+}
+
+fn of_way(number: usize, way: &RouteWay) -> Value {
+    known([
+        ("what", Some(json!("way"))),
+        ("number", Some(json!(number))),
+        ("ends", Some(json!(way.ends))),
+        ("gateways", way.gateways.as_ref().map(|gateways| json!(gateways))),
+        ("origin", Some(json!(way.origin.name()))),
+        ("length", way.length().map(|length| json!(length))),
+        ("width", way.width.filter(|width| width.is_finite()).map(|width| json!(width))),
+    ])
+}
+
+fn known<const N: usize>(properties: [(&str, Option<Value>); N]) -> Value {
+    let told = properties.into_iter().filter_map(|(name, value)| Some((name.to_owned(), value?)));
+    Value::Object(told.collect::<Map<_, _>>())
 }

@@ -1,75 +1,122 @@
 //! The area graph of osmAG: areas and passages as ways of OpenStreetMap.
 
-use std::fmt::Write;
-
-use super::region_names;
-use crate::account::PlacesAccount;
+use super::areas::AreaGraph;
+use super::xml::XmlText;
 
 /// Metres in a degree of latitude, and of longitude at the equator, where the map is put: on a sphere with the
 /// equatorial radius of WGS 84.
 const METRES_PER_DEGREE: f64 = 6_378_137.0 * std::f64::consts::PI / 180.0;
+/// The ids of ways begin behind those of all nodes.
+const FIRST_WAY: u64 = 1_000_000_000;
 
-/// Regions as areas and gateways as passages. The map's origin is the node named `root`, at latitude and longitude 0;
-/// a degree is 111,319.49 m in both directions. Holes are left out, for an area has one ring.
+/// Areas as closed ways and passages as ways with two nodes. The map's origin is the node named `root`, at latitude and longitude 0; a
+/// degree is 111,319.49 m in both directions. Some readers want `osmAG:areaType`, others `osmAG:areatype`: both are there.
 #[must_use]
-pub fn osm_ag(account: &PlacesAccount) -> String {
-    let names = region_names(account);
-    let mut nodes = Vec::from([[0.0, 0.0]]);
-    let mut ways = String::new();
-    let mut number = 0;
-    let mut add = |corners: &[[f64; 2]], is_closed: bool, tags: &[(&str, &str)]| {
-        let first = nodes.len();
-        nodes.extend(corners);
-        number += 1;
-        let _ = writeln!(ways, "  <way id=\"-{}\" version=\"1\">", number + 1_000_000_000_u64);
-        let again = is_closed.then_some(first);
-        for node in (first..nodes.len()).chain(again) {
-            let _ = writeln!(ways, "    <nd ref=\"-{}\"/>", node + 1);
-        }
-        for (key, value) in tags {
-            let _ = writeln!(ways, "    <tag k=\"{key}\" v=\"{}\"/>", escaped(value));
-        }
-        ways.push_str("  </way>\n");
-    };
-    for (region, name) in account.regions.iter().zip(&names) {
-        let Some(ring) = region.outline.first() else { continue };
-        let areatype = if region.kind == "corridor" { "corridor" } else { "room" };
-        let tags = [
-            ("name", name.as_str()),
-            ("indoor", areatype),
-            ("level", "1"),
-            ("osmAG:type", "area"),
-            ("osmAG:areatype", areatype),
-        ];
-        add(ring, true, &tags);
-    }
-    for (passage, about) in account.passages.iter().enumerate() {
-        let [from, to] = about.regions.map(|region| names[region as usize].as_str());
-        let name = format!("{} {passage}", about.kind);
-        let tags = [
-            ("name", name.as_str()),
-            ("level", "1"),
-            ("osmAG:type", "passage"),
-            ("osmAG:from", from),
-            ("osmAG:to", to),
-        ];
-        add(&about.gateway.line, false, &tags);
-    }
-    let mut text =
-        "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<osm version=\"0.6\" generator=\"hssh\">\n".to_owned();
-    for (node, [x, y]) in nodes.iter().enumerate() {
-        let place = format!(
-            "  <node id=\"-{}\" version=\"1\" lat=\"{:.11}\" lon=\"{:.11}\"",
-            node + 1,
-            y / METRES_PER_DEGREE,
-            x / METRES_PER_DEGREE
+pub fn osm_ag(graph: &AreaGraph) -> String {
+    let mut ways = Ways { nodes: vec![[0.0, 0.0]], ways: Vec::new() };
+    for area in &graph.areas {
+        let kind = area.kind.as_str();
+        ways.add(
+            &area.ring,
+            true,
+            &[
+                ("name", &area.name),
+                ("indoor", kind),
+                ("level", "1"),
+                ("osmAG:type", "area"),
+                ("osmAG:areatype", kind),
+                ("osmAG:areaType", kind),
+            ],
         );
-        text += &place;
-        text += if node == 0 { ">\n    <tag k=\"name\" v=\"root\"/>\n  </node>\n" } else { "/>\n" };
     }
-    text + &ways + "</osm>\n"
+    for passage in &graph.passages {
+        let [from, to] = passage.between.map(|area| graph.areas[area].name.as_str());
+        ways.add(
+            &passage.line,
+            false,
+            &[
+                ("name", &passage.name),
+                ("level", "1"),
+                ("osmAG:type", "passage"),
+                ("osmAG:from", from),
+                ("osmAG:to", to),
+            ],
+        );
+    }
+    let facts = graph.provenance.facts();
+    let facts: Vec<(String, String)> =
+        facts.into_iter().map(|(name, fact)| (format!("hssh:{name}"), fact.to_string())).collect();
+    let mut text = XmlText::new();
+    text.within("osm", &[("version", "0.6"), ("generator", &graph.provenance.generator)], |text| {
+        ways.write_nodes(&facts, text);
+        ways.write_ways(text);
+    });
+    text.done()
 }
 
-fn escaped(text: &str) -> String {
-    text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;").replace('"', "&quot;")
+/// Corners and ways until all corners are known.
+struct Ways {
+    nodes: Vec<[f64; 2]>,
+    ways: Vec<Way>,
+}
+
+struct Way {
+    nodes: Vec<usize>,
+    tags: Vec<(&'static str, String)>,
+}
+
+impl Ways {
+    fn add(&mut self, corners: &[[f64; 2]], is_closed: bool, tags: &[(&'static str, &str)]) {
+        let first = self.nodes.len();
+        self.nodes.extend(corners);
+        let again = is_closed.then_some(first);
+        let tags = tags.iter().map(|&(key, value)| (key, value.to_owned())).collect();
+        self.ways.push(Way { nodes: (first..self.nodes.len()).chain(again).collect(), tags });
+    }
+
+    /// The first is the root, which also tells where the map comes from.
+    fn write_nodes(&self, facts: &[(String, String)], text: &mut XmlText) {
+        for (number, [x, y]) in self.nodes.iter().enumerate() {
+            let id = node_id(number);
+            let [lat, lon] = [y, x].map(|metres| format!("{:.11}", metres / METRES_PER_DEGREE + 0.0));
+            let attributes = [
+                ("id", id.as_str()),
+                ("version", "1"),
+                ("action", "modify"),
+                ("visible", "true"),
+                ("lat", &lat),
+                ("lon", &lon),
+            ];
+            if number > 0 {
+                text.empty("node", &attributes);
+                continue;
+            }
+            text.within("node", &attributes, |text| {
+                text.empty("tag", &[("k", "name"), ("v", "root")]);
+                for (key, value) in facts {
+                    text.empty("tag", &[("k", key), ("v", value)]);
+                }
+            });
+        }
+    }
+
+    fn write_ways(&self, text: &mut XmlText) {
+        for (number, way) in (1..).zip(&self.ways) {
+            let id = format!("-{}", FIRST_WAY + number);
+            let attributes =
+                [("id", id.as_str()), ("version", "1"), ("action", "modify"), ("visible", "true")];
+            text.within("way", &attributes, |text| {
+                for &node in &way.nodes {
+                    text.empty("nd", &[("ref", &node_id(node))]);
+                }
+                for (key, value) in &way.tags {
+                    text.empty("tag", &[("k", key), ("v", value)]);
+                }
+            });
+        }
+    }
+}
+
+fn node_id(number: usize) -> String {
+    format!("-{}", number + 1)
 }

@@ -1,16 +1,16 @@
 //! Reading what maps are to explain: explorations and laser logs.
 
-mod log;
-mod source;
-
 use std::path::Path;
 use std::time::Duration;
 
 use hssh::answer::AnswerWarning;
+use hssh::file::{self, ReadLog};
 use hssh::kind::FileKind;
 use hssh::pipeline::{Input, LaserChoice, MappingOptions, SurveyedLog, TrackedLog};
 use hssh_causal::Exploration;
-use hssh_local::{MatchOptions, OccupancyGrid, Reply, SurveyError, SurveyStage, read_map_with_remarks};
+use hssh_local::{
+    LaserLog, MatchOptions, OccupancyGrid, Reply, SurveyError, SurveyStage, read_map_with_remarks,
+};
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 
 use crate::arguments::TopicArguments;
@@ -18,10 +18,7 @@ use crate::failure::Failure;
 use crate::progress::{is_interrupted, keep_on_signals};
 use crate::terminal::say;
 
-#[cfg(feature = "bags")]
-pub(crate) use log::read_account;
-use log::read_log;
-pub(crate) use source::Source;
+pub(crate) use hssh::file::Source;
 
 /// An exploration, or a laser log with what is found in it; `-` is standard input.
 pub(crate) fn read_input(
@@ -32,29 +29,20 @@ pub(crate) fn read_input(
     let name = file.display().to_string();
     let source = Source::open(file)?;
     match source.kind() {
-        FileKind::LaserLog(_) | FileKind::Recording(_) | FileKind::Table => {
+        FileKind::LaserLog(_) | FileKind::Recording(_) | FileKind::Table | FileKind::JsonLines => {
             let surveyed = surveyed(file, source, options, topics)?;
             Input::surveyed(name, surveyed).map_err(|error| failed(file, error))
         }
         FileKind::Exploration | FileKind::Text | FileKind::Empty => {
-            Ok(Input::exploration(name, exploration(file, source)?))
+            Ok(Input::exploration(name, file::read_exploration(file, source)?))
         }
-        _ => Err(source.unfit("an exploration or a laser log")),
+        _ => Err(source.unfit("an exploration or a laser log").into()),
     }
 }
 
 /// The exploration in a file, or on standard input if the path is `-`.
 pub(crate) fn read_exploration(file: &Path) -> Result<Exploration, Failure> {
-    let source = Source::open(file)?;
-    match source.kind() {
-        FileKind::Exploration | FileKind::Text | FileKind::Empty => exploration(file, source),
-        _ => Err(source.unfit("an exploration")),
-    }
-}
-
-fn exploration(file: &Path, source: Source) -> Result<Exploration, Failure> {
-    let bytes = source.into_bytes()?;
-    Exploration::from_ron_bytes(&bytes).map_err(|error| Failure::parse(file, &bytes, &error))
+    Ok(file::read_exploration(file, Source::open(file)?)?)
 }
 
 /// The laser log in a file, and the places along it.
@@ -73,10 +61,25 @@ fn open_log(file: &Path) -> Result<Source, Failure> {
         FileKind::LaserLog(_)
         | FileKind::Recording(_)
         | FileKind::Table
+        | FileKind::JsonLines
         | FileKind::Text
         | FileKind::Empty => Ok(source),
-        _ => Err(source.unfit("a laser log")),
+        _ => Err(source.unfit("a laser log").into()),
     }
+}
+
+/// The log in a file that was opened. What is used of a bag goes to standard error.
+fn read_log(
+    file: &Path,
+    source: Source,
+    laser: &LaserChoice,
+    topics: &TopicArguments,
+) -> Result<LaserLog, Failure> {
+    let ReadLog { log, used } = file::read_log(file, source, laser, &topics.choice())?;
+    for used in used {
+        say(&format!("{}: {used}", file.display()));
+    }
+    Ok(log)
 }
 
 /// The laser log in a file, tracked scan by scan; warnings go to standard error.
@@ -101,7 +104,7 @@ pub(crate) fn read_tracked(
 }
 
 /// Shows on standard error how much is done.
-fn progress_bar(length: u64) -> ProgressBar {
+pub(crate) fn progress_bar(length: u64) -> ProgressBar {
     let bar = ProgressBar::with_draw_target(Some(length), ProgressDrawTarget::stderr_with_hz(10));
     if let Ok(style) = ProgressStyle::with_template("{spinner} {msg} {bar:30} {percent}%  {elapsed}") {
         bar.set_style(style);

@@ -13,7 +13,7 @@ use crate::failure::Failure;
 use crate::terminal::{harmless, say};
 
 pub(crate) use place::{check_folder, check_outputs, refuse_input};
-pub(crate) use robot::{grid_image, write_grid, write_tum};
+pub(crate) use robot::{grid_image, to_tum, write_grid, write_tum};
 
 /// Prints text to standard output; nothing in it commands the terminal.
 pub(crate) fn print(text: &str) -> Result<(), Failure> {

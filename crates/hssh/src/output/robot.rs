@@ -1,8 +1,8 @@
 //! What a log becomes as files: a trajectory, and the grid of a building.
 
-use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 
+use hssh::export::tum_trajectory;
 use hssh_local::{OccupancyGrid, encode_png, write_map};
 use hssh_metrics::Pose;
 
@@ -11,12 +11,14 @@ use crate::failure::Failure;
 
 /// Writes when scans were taken and where in TUM form, one line each.
 pub(crate) fn write_tum(file: &Path, trajectory: &[(f64, Pose)]) -> Result<(), Failure> {
-    let mut text = String::new();
-    for (time, pose) in trajectory {
-        let (sin, cos) = (pose.theta / 2.0).sin_cos();
-        let _ = writeln!(text, "{time} {:.6} {:.6} 0 0 0 {sin:.9} {cos:.9}", pose.x, pose.y);
-    }
-    write_file(file, &text)
+    write_file(file, &to_tum(trajectory))
+}
+
+/// When scans were taken and where, in TUM form; empty without scans.
+pub(crate) fn to_tum(trajectory: &[(f64, Pose)]) -> String {
+    let poses: Vec<[f64; 4]> =
+        trajectory.iter().map(|(time, pose)| [*time, pose.x, pose.y, pose.theta]).collect();
+    tum_trajectory(&poses).unwrap_or_default()
 }
 
 /// Writes a grid map: for ROS `map_server` if the file ends so, else as PNG.

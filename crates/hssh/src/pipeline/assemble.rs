@@ -3,10 +3,11 @@
 use std::collections::BTreeMap;
 
 use hssh_causal::Exploration;
-use hssh_local::visit_frames;
+use hssh_local::{Visit, visit_frames};
 use hssh_metrics::{Marginals, Pose, PoseGraph, PoseId};
-use hssh_topology::{MapOlp, Measure, Position, TopologicalMap};
+use hssh_topology::{MapOlp, Measure, Olp, PlaceId, Position, TopologicalMap};
 
+use super::driven::{Approaches, Drives, length};
 use super::engine::{FoundMap, Telling, measured};
 use super::input::{Input, SurveyedLog};
 use crate::answer::{
@@ -20,6 +21,8 @@ pub(super) struct Assembly<'a> {
     pub(super) found: &'a FoundMap,
     pub(super) telling: &'a Telling,
     pub(super) graph: Option<&'a PoseGraph>,
+    /// Of a log.
+    pub(super) approaches: Option<&'a Approaches>,
 }
 
 impl Assembly<'_> {
@@ -42,6 +45,7 @@ impl Assembly<'_> {
             links,
             paths: self.paths(),
             visits,
+            trajectory: Vec::new(),
             current: CurrentPosition {
                 place: hypothesis.position.place.number(),
                 rotation: positions.last().map_or(0, |position| position.phi.rotation()),
@@ -84,6 +88,7 @@ impl Assembly<'_> {
         };
         let place = |(index, place)| {
             let named = &self.exploration().star_types()[map.star(place).index()];
+            let first_visit = self.first_visit(place);
             let end = |olp: MapOlp| {
                 let local = map.local(olp);
                 let leads_to = map.linked(olp).map(|other| self.end(other));
@@ -97,15 +102,24 @@ impl Assembly<'_> {
                     label: named.star.ends()[local.index()].label.clone(),
                     bearing: named.bearings[local.index()],
                     leads_to,
+                    gateway: first_visit.and_then(|visit| gateway(visit, local)),
                 }
             };
             AnsweredPlace {
                 star: named.name.clone(),
                 ends: map.olps_of(place).map(end).collect(),
                 pose: pose(index),
+                region: None,
             }
         };
         map.places().enumerate().map(place).collect()
+    }
+
+    /// The first visit to a place, of a log whose places have poses.
+    fn first_visit(&self, place: PlaceId) -> Option<&Visit> {
+        let SurveyedLog { survey, .. } = self.input.surveyed.as_ref().filter(|_| self.graph.is_some())?;
+        let visit = self.telling.positions.iter().position(|position| position.place == place)?;
+        survey.visits.get(visit)
     }
 
     fn paths(&self) -> Vec<AnsweredPath> {
@@ -140,7 +154,7 @@ impl Assembly<'_> {
                 Some((exit, entry)) if used.get(&exit) == Some(&entry) => finding = Finding::Predicted,
                 Some((exit, entry)) => {
                     used.extend([(exit, entry), (entry, exit)]);
-                    links.push(AnsweredLink { from: self.end(exit), to: self.end(entry) });
+                    links.push(AnsweredLink { from: self.end(exit), to: self.end(entry), way: Vec::new() });
                 }
             }
             if let (Some(last), Some(exit)) = (visits.last_mut(), exit) {
@@ -155,7 +169,33 @@ impl Assembly<'_> {
                 robot: robots.next().and_then(|pose| placed(pose, None)),
             });
         }
+        self.add_ways(&visits, &mut links);
         (visits, links)
+    }
+
+    /// Gives each link of a log's map the shortest line of the travels along it, which may be of either direction.
+    fn add_ways(&self, visits: &[AnsweredVisit], links: &mut [AnsweredLink]) {
+        let log = self.input.surveyed.as_ref().zip(self.approaches).zip(self.graph);
+        let Some(((SurveyedLog { survey, .. }, approaches), graph)) = log else { return };
+        let Some(drives) = Drives::new(survey, approaches, &self.telling.positions, graph) else { return };
+        for (visit, pair) in visits.windows(2).enumerate() {
+            let end = |visit: &AnsweredVisit, end: &Option<String>| {
+                Some(EndReference { place: visit.place, end: end.clone()? })
+            };
+            let ends = end(&pair[0], &pair[0].exit).zip(end(&pair[1], &pair[1].entry));
+            let Some((exit, entry)) = ends else { continue };
+            let is_along = |link: &&mut AnsweredLink| {
+                (&link.from, &link.to) == (&exit, &entry) || (&link.from, &link.to) == (&entry, &exit)
+            };
+            let Some(link) = links.iter_mut().find(is_along) else { continue };
+            let mut line = drives.line(visit);
+            if link.from != exit {
+                line.reverse();
+            }
+            if link.way.is_empty() || length(&line) < length(&link.way) {
+                link.way = line;
+            }
+        }
     }
 
     /// Where the robot was at the scan nearest to each visit's place; nothing without a log or poses.
@@ -164,15 +204,23 @@ impl Assembly<'_> {
             return Vec::new();
         };
         let frames = visit_frames(&survey.visits, &self.telling.positions, graph.poses());
-        let robot = |(frame, visit): (&Pose, &hssh_local::Visit)| {
+        let robot = |(frame, visit): (&Pose, &Visit)| {
             frame.compose(visit.frame.between(survey.track.scans[visit.reference].pose))
         };
         frames.iter().zip(&survey.visits).map(robot).collect()
     }
 }
 
+/// The line across an end's way out, in the frame of the place.
+fn gateway(visit: &Visit, end: Olp) -> Option<[[f64; 2]; 2]> {
+    let line = visit.star.gateways.get(end.index())?.as_ref()?.line;
+    let seen = |[x, y]: [f64; 2]| visit.frame.between(Pose::new(x, y, 0.0));
+    let ends = line.map(|point| seen(point)).map(|pose| [pose.x, pose.y]);
+    ends.iter().flatten().all(|number| number.is_finite()).then_some(ends)
+}
+
 /// An end of the star seen on a visit, as an end of the map.
-fn olp(map: &TopologicalMap, position: &Position, seen: hssh_topology::Olp) -> MapOlp {
+fn olp(map: &TopologicalMap, position: &Position, seen: Olp) -> MapOlp {
     map.olp(position.place, position.phi.apply(seen))
 }
 
@@ -195,6 +243,7 @@ pub(super) fn records(input: &Input, considered: usize, best: Option<&AnsweredMa
                 let (first, last) = visit.scans;
                 [first, last].map(|scan| surveyed.scan_number(scan))
             }),
+            region: None,
             times: visit.and_then(|(surveyed, visit)| {
                 let time = |scan: usize| surveyed.log.scans[scan].time;
                 Some([time(visit.scans.0)?, time(visit.scans.1)?])

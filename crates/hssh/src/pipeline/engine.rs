@@ -9,7 +9,7 @@ use hssh_metrics::{PoseGraph, UniformPrior};
 use hssh_search::{
     Appearance, Corridor, Distinction, Goal, LINEAR_TRUST, LevelCounts, Limits, MapPrior, Mapper,
     MapperBuilder, Metrical, Order, PlacePrior, PosteriorModel, Prediction, Proving, RankedMap, Report,
-    Score, distinguish, place_by_odometry,
+    Score, Tree, distinguish, place_by_odometry,
 };
 use hssh_topology::{GenusRank, Hypothesis, MapOlp, Measure, Position, Preference, StarCatalog};
 
@@ -24,20 +24,22 @@ use crate::answer::{
 pub use hssh_search::Monitor;
 
 /// How much more alike pairs of visits look than places at random.
-pub(super) type Likeness = Appearance;
+pub(crate) type Likeness = Appearance;
 
 /// What to search.
-pub(super) struct Task<'a> {
-    pub(super) exploration: &'a Exploration,
-    pub(super) options: &'a MappingOptions,
-    pub(super) method: SearchMethod,
+pub(crate) struct Task<'a> {
+    pub(crate) exploration: &'a Exploration,
+    pub(crate) options: &'a MappingOptions,
+    pub(crate) method: SearchMethod,
     /// By later visit, earlier visit and rotation of φ: how much more alike two visits look than two places at random.
-    pub(super) likeness: Option<Likeness>,
-    pub(super) monitor: &'a Arc<Monitor>,
+    pub(crate) likeness: Option<Likeness>,
+    pub(crate) monitor: &'a Arc<Monitor>,
+    /// Whether more travels are to come.
+    pub(crate) is_online: bool,
 }
 
 /// A search that has come to its end.
-pub(super) struct Searched {
+pub(crate) struct Searched {
     /// Nothing if hypotheses were only counted.
     mapper: Option<Box<Mapper>>,
     pub(super) summary: SearchSummary,
@@ -72,40 +74,29 @@ impl Task<'_> {
         if self.method == SearchMethod::Count {
             return self.count();
         }
+        let mapper = self.mapper_builder()?.explain(self.exploration).map_err(SearchFailure::from)?;
+        Ok(Searched::of(Box::new(mapper), self.method, self.options))
+    }
+
+    /// How the mapper is to search.
+    pub(crate) fn mapper_builder(&self) -> Result<MapperBuilder, PipelineError> {
+        self.mapper_builder_for(self.goal())
+    }
+
+    /// How the mapper is to search for other maps than those that were asked for.
+    pub(super) fn mapper_builder_for(&self, goal: Goal) -> Result<MapperBuilder, PipelineError> {
         let (objective, order) = self.method.objective_and_order();
         let builder = match objective {
             SearchObjective::Preference => self.builder(),
             SearchObjective::Posterior => self.builder().posterior(self.model()?),
         };
         let builder = builder.constraints(self.options.visits.constraints()?);
-        let builder = builder.order(order).goal(self.goal()).proving(Proving {
+        let builder = builder.order(order).goal(goal).proving(Proving {
             best: self.options.posterior.best,
             rest: self.options.posterior.rest,
             patience: None,
         });
-        let builder = builder.appearance(self.likeness.clone().unwrap_or_default());
-        let mapper = builder.explain(self.exploration).map_err(SearchFailure::from)?;
-        let (report, maps) = mapper.answer(self.options.listed.unwrap_or(usize::MAX));
-        let found = |(index, map): (usize, RankedMap)| {
-            let tied = (index as u64) < report.finals.optimal;
-            FoundMap {
-                branch: mapper.branch(map.node).to_string(),
-                optimal: tied && report.is_optimal,
-                tied,
-                probability: map.probable.as_ref().map(|probable| [probable.at_least, probable.at_most]),
-                costs: map.probable.as_ref().map(|probable| cost_sheet(&probable.cost)),
-                map,
-            }
-        };
-        let measured =
-            objective == SearchObjective::Posterior && self.options.posterior.score != MetricalScore::Ignored;
-        Ok(Searched {
-            summary: summary(&report, objective, search_order(order), self.options.search.closed),
-            certificate: certificate(&report, measured),
-            explained: if report.finals.final_maps > 0 { report.explained as usize } else { 0 },
-            ranking: maps.into_iter().enumerate().map(found).collect(),
-            mapper: Some(Box::new(mapper)),
-        })
+        Ok(builder.appearance(self.likeness.clone().unwrap_or_default()))
     }
 
     fn count(self) -> Result<Searched, PipelineError> {
@@ -142,13 +133,20 @@ impl Task<'_> {
     }
 
     fn model(&self) -> Result<PosteriorModel, PipelineError> {
-        model(self.exploration, self.options)
+        let model = model(self.exploration, self.options)?;
+        // What is still to come says where corridors lead, too.
+        Ok(match model.metrical {
+            Metrical::Evidence(PlacePrior::Corridor(_)) if self.is_online => {
+                PosteriorModel { metrical: Metrical::Evidence(PlacePrior::Typical), ..model }
+            }
+            _ => model,
+        })
     }
 }
 
 impl SearchLimits {
     /// As the search takes them.
-    pub(super) fn of_search(&self) -> Limits {
+    pub(crate) fn of_search(&self) -> Limits {
         // Whatever is longer than a duration can be is no limit.
         let time = self.seconds.and_then(|seconds| Duration::try_from_secs_f64(seconds).ok());
         Limits { nodes: self.nodes, time, bytes: Some(self.mebibytes.saturating_mul(1 << 20)) }
@@ -182,6 +180,37 @@ pub(super) fn model(
 }
 
 impl Searched {
+    /// What a mapper found that searched by a method.
+    pub(crate) fn of(mapper: Box<Mapper>, method: SearchMethod, options: &MappingOptions) -> Self {
+        let (objective, order) = method.objective_and_order();
+        let (report, maps) = mapper.answer(options.listed.unwrap_or(usize::MAX));
+        let found = |(index, map): (usize, RankedMap)| {
+            let tied = (index as u64) < report.finals.optimal;
+            FoundMap {
+                branch: mapper.branch(map.node).to_string(),
+                optimal: tied && report.is_optimal,
+                tied,
+                probability: map.probable.as_ref().map(|probable| [probable.at_least, probable.at_most]),
+                costs: map.probable.as_ref().map(|probable| cost_sheet(&probable.cost)),
+                map,
+            }
+        };
+        let measured =
+            objective == SearchObjective::Posterior && options.posterior.score != MetricalScore::Ignored;
+        Searched {
+            summary: summary(&report, objective, search_order(order), options.search.closed),
+            certificate: certificate(&report, measured),
+            explained: if report.finals.final_maps > 0 { report.explained as usize } else { 0 },
+            ranking: maps.into_iter().enumerate().map(found).collect(),
+            mapper: Some(mapper),
+        }
+    }
+
+    /// The mapper, to go on; nothing if hypotheses were only counted.
+    pub(crate) fn into_mapper(self) -> Option<Box<Mapper>> {
+        self.mapper
+    }
+
     /// The best maps, as many as were asked for.
     pub(super) fn ranking(&self) -> &[FoundMap] {
         &self.ranking
@@ -223,6 +252,11 @@ impl Searched {
         let mapper = self.mapper.as_ref()?;
         let best = self.ranking.iter().filter(|found| found.tied).map(|found| found.map.node);
         Some(SearchTree::of(mapper.tree(), mapper.experience(), &best.collect::<Vec<_>>(), most_maps))
+    }
+
+    /// All hypotheses made. `None` if they were only counted.
+    pub(super) fn hypotheses(&self) -> Option<&Tree> {
+        self.mapper.as_ref().map(|mapper| mapper.tree())
     }
 
     /// What the proof rests on, to be checked by another program. `None` if nothing is proved.

@@ -4,7 +4,8 @@ use std::io::Read;
 
 use hssh_causal::{Exploration, ParseError};
 use hssh_local::{
-    LaserLog, LogError, PerceptionModel, Reply, Survey, SurveyError, SurveyStage, SurveyWarning, survey,
+    LaserLog, LogError, PerceptionModel, Reply, Survey, SurveyError, SurveyStage, SurveyWarning, Track,
+    survey, survey_tracked,
 };
 
 use super::error::PipelineError;
@@ -111,6 +112,23 @@ impl SurveyedLog {
         let survey = survey(&log, &options.places.along_logs(), progress)?;
         let scans = survey.track.scans.len();
         let log = if scans < log.scans.len() { log.beginning(scans) } else { log };
+        Ok(SurveyedLog { log, survey })
+    }
+
+    /// The same along a log of which every scan was tracked.
+    ///
+    /// # Errors
+    /// As [`new`](Self::new).
+    ///
+    /// # Panics
+    /// If the track is that of another log.
+    pub fn from_track<R: Into<Reply>>(
+        log: LaserLog,
+        track: Track,
+        options: &MappingOptions,
+        progress: impl FnMut(SurveyStage, usize) -> R,
+    ) -> Result<Self, SurveyError> {
+        let survey = survey_tracked(&log, track, &options.places.along_logs(), progress)?;
         Ok(SurveyedLog { log, survey })
     }
 

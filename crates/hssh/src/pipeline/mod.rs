@@ -1,10 +1,13 @@
 //! From an exploration or a robot's log to an answer, step by step: survey, likeness, search, maps, grid.
 
 mod assemble;
+mod building;
+mod driven;
 mod engine;
 mod error;
 mod input;
 mod laser;
+mod online;
 mod options;
 mod places;
 mod reading;
@@ -15,6 +18,7 @@ pub use engine::Monitor;
 pub use error::{PipelineError, SearchFailure};
 pub use input::{Input, SurveyedLog};
 pub use laser::LaserChoice;
+pub use online::{Belief, History};
 pub use options::{
     GenusOrder, MappingOptions, MetricalScore, OptionsError, PosteriorChoice, PriorKind, SearchChoice,
     SearchLimits, SearchMethod, VisitChoice,
@@ -28,13 +32,16 @@ use std::thread::available_parallelism;
 
 use hssh_causal::Exploration;
 use hssh_draw::SearchTree;
-use hssh_local::{OccupancyGrid, PerceptionModel, building_map, global_poses, resemblance, visit_frames};
+use hssh_local::{OccupancyGrid, PerceptionModel, building_map, resemblance};
 use hssh_metrics::{Pose, PoseGraph};
+use hssh_search::{Mapper, Tree};
 use hssh_topology::{Isomorphism, Position};
 
 use crate::answer::{Answer, AnswerWarning, AnsweredMap, ReadingAccount, Spot, Verdict, WarningKind};
 use assemble::{Assembly, records};
-use engine::{Likeness, Searched, Task, Telling};
+use building::Building;
+use engine::{Likeness, Telling};
+pub(crate) use engine::{Searched, Task};
 
 /// More threads than that for each core are of no use.
 const THREADS_PER_CORE: usize = 4;
@@ -46,6 +53,8 @@ pub struct Mapped {
     searched: Searched,
     /// By rank.
     placed: Vec<PlacedMap>,
+    /// What the first map makes of the building, if there is a log.
+    building: Option<Building>,
     /// What the maps are of, if errors of perception were reckoned with.
     corrected: Option<Exploration>,
 }
@@ -54,6 +63,14 @@ pub struct Mapped {
 struct PlacedMap {
     positions: Vec<Position>,
     graph: Option<PoseGraph>,
+}
+
+impl PlacedMap {
+    /// Where every scan of the log was taken, in the frame of the first place.
+    fn scan_poses(&self, input: &Input) -> Option<Vec<Pose>> {
+        let SurveyedLog { survey, .. } = input.surveyed.as_ref()?;
+        driven::scan_poses(survey, &self.positions, self.graph.as_ref())
+    }
 }
 
 /// Finds the maps that explain an input. `monitor` shows other threads how far the search is, and lets them stop it.
@@ -89,25 +106,28 @@ pub fn map(input: &Input, options: &MappingOptions, monitor: &Arc<Monitor>) -> R
     };
     if let Some(reading::Read { exploration, account }) = read {
         let corrected = Input::exploration(input.name.clone(), exploration);
-        // What is said of visits that are taken for none is true of no place.
-        let number = |told: usize| account.visits.iter().find(|[other, _]| *other == told as u64);
-        let number = |told: usize| number(told).map(|&[_, visit]| visit as usize);
-        let exact = MappingOptions {
-            visits: options.visits.renumbered(number),
-            readings: ReadingChoice::default(),
-            limits: SearchLimits { travels: None, ..options.limits },
-            ..options
-        };
+        let exact = options.given(&account);
         let mut mapped = map(&corrected, &exact, monitor)?;
         mapped.rest_on(account, warnings);
         mapped.corrected = Some(corrected.exploration);
         return Ok(mapped);
     }
     let likeness = input.surveyed.as_ref().map(|surveyed| surveyed.likeness(options.posterior.likeness));
-    let task = Task { exploration: &exploration, options: &options, method, likeness, monitor };
-    let searched = task.search()?;
+    let task =
+        Task { exploration: &exploration, options: &options, method, likeness, monitor, is_online: false };
+    Ok(answered(input, &exploration, &options, task.search()?, warnings))
+}
 
-    let (maps, placed) = told(input, &searched, &exploration, &mut warnings);
+/// The answer that a search gives, of an input of which the travels of `exploration` were to be explained.
+pub(crate) fn answered(
+    input: &Input,
+    exploration: &Exploration,
+    options: &MappingOptions,
+    searched: Searched,
+    mut warnings: Vec<AnswerWarning>,
+) -> Mapped {
+    let considered = exploration.travels().len();
+    let (maps, placed) = told(input, &searched, exploration, &mut warnings);
     let account = input.account(considered, searched.explained as u64);
     let mut certificate = searched.certificate.clone();
     if let Some(evidence) = &account.evidence {
@@ -117,7 +137,7 @@ pub fn map(input: &Input, options: &MappingOptions, monitor: &Arc<Monitor>) -> R
     if said > 0 {
         certificate.trust_said(said);
     }
-    let answer = Answer {
+    let mut answer = Answer {
         format: Answer::FORMAT.to_owned(),
         version: Answer::VERSION,
         verdict: Verdict::of(&account, &searched.summary, &certificate),
@@ -125,11 +145,21 @@ pub fn map(input: &Input, options: &MappingOptions, monitor: &Arc<Monitor>) -> R
         search: searched.summary.clone(),
         certificate,
         visits: records(input, considered, maps.first()),
+        building: None,
         maps,
         readings: None,
         warnings,
     };
-    Ok(Mapped { answer, searched, placed, corrected: None })
+    let building = match (&input.surveyed, placed.first().and_then(|map| map.scan_poses(input))) {
+        (Some(surveyed), Some(poses)) => {
+            Building::new(surveyed, &poses).map_err(|problem| building::warn(&mut answer, &problem)).ok()
+        }
+        _ => None,
+    };
+    if let (Some(building), Some(surveyed)) = (&building, &input.surveyed) {
+        building.tell(surveyed, &mut answer);
+    }
+    Mapped { answer, searched, placed, building, corrected: None }
 }
 
 /// The maps of the ranking, placed where measured travels allow it.
@@ -140,6 +170,8 @@ fn told(
     warnings: &mut Vec<AnswerWarning>,
 ) -> (Vec<AnsweredMap>, Vec<PlacedMap>) {
     let (mut maps, mut placed) = (Vec::new(), Vec::new());
+    let approaches = input.surveyed.as_ref().map(|surveyed| driven::Approaches::new(&surveyed.survey));
+    let approaches = approaches.as_ref();
     let mut first: Option<Telling> = None;
     for (index, found) in searched.ranking().iter().enumerate() {
         let rank = index + 1;
@@ -149,7 +181,8 @@ fn told(
             AnswerWarning::record(warnings, WarningKind::NoPoses, spot, || problem.to_string());
             None
         });
-        let mut map = Assembly { input, found, telling: &telling, graph: graph.as_ref() }.map(rank);
+        let mut map =
+            Assembly { input, found, telling: &telling, graph: graph.as_ref(), approaches }.map(rank);
         map.difference = first.as_ref().and_then(|first| searched.difference(first, &telling));
         // Of several maps that are equally good, the first is not the one to be judged.
         if let (1, Some(graph), 1) = (rank, &graph, searched.summary.found.tied) {
@@ -199,7 +232,7 @@ fn useful_threads(asked: usize, warnings: &mut Vec<AnswerWarning>) -> usize {
 
 impl MappingOptions {
     /// The method for an exploration: what was chosen, or what its measurements allow.
-    fn method_for(&self, exploration: &Exploration) -> Result<SearchMethod, PipelineError> {
+    pub(crate) fn method_for(&self, exploration: &Exploration) -> Result<SearchMethod, PipelineError> {
         let is_measured = || exploration.travels().iter().all(|travel| travel.odometry.is_some());
         let usual = if exploration.travels().is_empty() || self.search.genus.is_some() || !is_measured() {
             SearchMethod::BreadthFirst
@@ -222,6 +255,21 @@ impl MappingOptions {
             }
             SearchMethod::Count if self.visits != VisitChoice::default() => Err(PipelineError::CountedVisits),
             method => Ok(method),
+        }
+    }
+}
+
+impl MappingOptions {
+    /// What they are for the exploration as it must have been, by an account of what was misread.
+    fn given(&self, account: &ReadingAccount) -> Self {
+        // What is said of visits that are taken for none is true of no place.
+        let number = |told: usize| account.visits.iter().find(|[other, _]| *other == told as u64);
+        let number = |told: usize| number(told).map(|&[_, visit]| visit as usize);
+        MappingOptions {
+            visits: self.visits.renumbered(number),
+            readings: ReadingChoice::default(),
+            limits: SearchLimits { travels: None, ..self.limits },
+            ..self.clone()
         }
     }
 }
@@ -278,6 +326,11 @@ impl Mapped {
         self.corrected.as_ref()
     }
 
+    /// The answer, and the mapper to go on with.
+    pub(crate) fn into_answer_and_mapper(self) -> (Answer, Option<Box<Mapper>>) {
+        (self.answer, self.searched.into_mapper())
+    }
+
     /// The maps are those of an account of what was misread: no more probable than that.
     fn rest_on(&mut self, account: ReadingAccount, warnings: Vec<AnswerWarning>) {
         for map in &mut self.answer.maps {
@@ -297,22 +350,50 @@ impl Mapped {
         self.searched.tree(most_maps)
     }
 
+    /// Tells the exploration again, travel by travel, to the on-line search, and asks it after each for the best map. It goes by the
+    /// options of the answer, but knows nothing that comes later: new places lie where corridors as long as those so far lead. Maps need
+    /// not be closed on the way. Visits and stars are those of the answer; along a log, of its whole survey. The search is given
+    /// up beyond `most_nodes` hypotheses.
+    ///
+    /// # Errors
+    /// If the search cannot begin; then there would be no answer either.
+    pub fn history(
+        &self,
+        input: &Input,
+        options: &MappingOptions,
+        most_nodes: u64,
+        monitor: &Arc<Monitor>,
+    ) -> Result<History, PipelineError> {
+        let considered = self.answer.input.considered as usize;
+        let (exploration, options) = match (&self.corrected, &self.answer.readings) {
+            (Some(corrected), Some(account)) => (corrected.clone(), options.given(account)),
+            _ => (input.exploration.prefix(considered), options.clone()),
+        };
+        let method = options.method_for(&exploration)?;
+        let surveyed = input.surveyed.as_ref();
+        let likeness = surveyed.map(|surveyed| surveyed.likeness(options.posterior.likeness));
+        let task =
+            Task { exploration: &exploration, options: &options, method, likeness, monitor, is_online: true };
+        let mut history = task.history(most_nodes)?;
+        // As in the answer, what the places of a log rest on is a factor.
+        let evidence = surveyed.map_or(1.0, |surveyed| surveyed.evidence().probability);
+        for belief in &mut history.beliefs {
+            belief.probability = belief.probability.map(|range| range.map(|part| part * evidence));
+        }
+        Ok(history)
+    }
+
+    /// All hypotheses that the search made. `None` if they were only counted.
+    #[must_use]
+    pub fn hypotheses(&self) -> Option<&Tree> {
+        self.searched.hypotheses()
+    }
+
     /// Where every scan of the log was taken, in the frame of the first place of a map. `None` without a log, without
     /// such a map, or if the map's places are not placed.
     #[must_use]
     pub fn scan_poses(&self, input: &Input, rank: usize) -> Option<Vec<Pose>> {
-        let SurveyedLog { survey, .. } = input.surveyed.as_ref()?;
-        let PlacedMap { positions, graph } = self.placed(rank)?;
-        if survey.agrees_with(positions) {
-            let first = survey.visits[0].frame;
-            return Some(survey.track.scans.iter().map(|scan| first.between(scan.pose)).collect());
-        }
-        let mut frames = visit_frames(&survey.visits, positions, graph.as_ref()?.poses());
-        // Beyond the travels explained, the track goes on.
-        for travel in &survey.travels[frames.len() - 1..] {
-            frames.push(frames[frames.len() - 1].compose(travel.mean));
-        }
-        Some(global_poses(survey, &frames))
+        self.placed(rank)?.scan_poses(input)
     }
 
     /// Where every laser scan of the log was taken and when, those that cannot be used among them: they have the pose
@@ -324,6 +405,15 @@ impl Mapped {
         let tracked = || surveyed.survey.track.scans.iter().map(|scan| scan.pose).collect();
         let poses = self.scan_poses(input, rank).unwrap_or_else(tracked);
         Some(scans::timed(&surveyed.log, &poses))
+    }
+
+    /// Puts the trajectory into each map of the answer: when every scan of the log was taken and where. Nothing without a log.
+    pub fn carry_trajectories(&mut self, input: &Input) {
+        for rank in 1..=self.answer.maps.len() {
+            let trajectory = self.trajectory(input, rank).unwrap_or_default();
+            self.answer.maps[rank - 1].trajectory =
+                trajectory.iter().map(|&(time, pose)| [time, pose.x, pose.y, pose.theta]).collect();
+        }
     }
 
     /// All scans of the log in one pose graph, in the frame of the first place of a map: the tracked steps, and what the laser
@@ -347,6 +437,9 @@ impl Mapped {
     /// # Errors
     /// If there are no scans, no such map, or the grid would be too large.
     pub fn building(&self, input: &Input, rank: usize) -> Result<OccupancyGrid, PipelineError> {
+        if let (1, Some(building)) = (rank, &self.building) {
+            return Ok(building.grid().clone());
+        }
         let poses = self.scan_poses(input, rank);
         let (surveyed, poses) = input.surveyed.as_ref().zip(poses).ok_or(PipelineError::NoScans)?;
         Ok(building_map(&surveyed.log, &poses)?)

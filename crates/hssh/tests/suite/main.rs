@@ -3,13 +3,16 @@
 
 mod causal;
 mod common;
+mod export;
 mod faults;
 mod graph;
 mod kinds;
+mod live;
 mod log;
 mod outputs;
 mod program;
 mod readings;
+mod rooms;
 mod signals;
 mod simulate;
 mod stars;

@@ -24,7 +24,7 @@ pub(super) fn read(file: &Path, contents: &mut BagContents, visit: Visit<'_>) ->
     let size = source.metadata().map_err(BagError::read(file))?.len();
     match summary(&mut source, size) {
         Some(summary) if is_index(&summary) => indexed(file, source, &summary, contents, visit),
-        _ => linear(file, source, contents, visit),
+        _ => linear(file, BufReader::with_capacity(1 << 18, source), contents, visit),
     }
 }
 
@@ -108,9 +108,13 @@ fn indexed(
     }
 }
 
-/// Reads record by record, up to a break if there is one.
-fn linear(file: &Path, source: File, contents: &mut BagContents, visit: Visit<'_>) -> Result<(), BagError> {
-    let mut source = BufReader::with_capacity(1 << 18, source);
+/// Reads record by record, up to a break if there is one; as it comes, if somebody is still writing.
+pub(super) fn linear(
+    file: &Path,
+    mut source: impl Read,
+    contents: &mut BagContents,
+    visit: Visit<'_>,
+) -> Result<(), BagError> {
     let options = LinearReaderOptions::default().with_record_length_limit(LARGEST);
     let mut reader = LinearReader::new_with_options(options);
     let mut schemas: HashMap<u16, String> = HashMap::new();

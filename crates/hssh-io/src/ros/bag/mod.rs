@@ -142,6 +142,13 @@ pub(crate) fn read(path: &Path, visit: Visit<'_>) -> Result<BagContents, BagErro
     Ok(contents)
 }
 
+/// Reads an MCAP file as it comes, under a name.
+pub(crate) fn read_stream(name: &Path, source: impl Read, visit: Visit<'_>) -> Result<BagContents, BagError> {
+    let mut contents = BagContents::default();
+    mcap_file::linear(name, source, &mut contents, visit)?;
+    Ok(contents)
+}
+
 fn read_file(file: &Path, contents: &mut BagContents, visit: Visit<'_>) -> Result<(), BagError> {
     let mut beginning = Vec::new();
     let opened = File::open(file).map_err(BagError::read(file))?;

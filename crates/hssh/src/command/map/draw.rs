@@ -8,6 +8,7 @@ use hssh_draw::{Bearings, TreeOptions, draw_tree, tree_to_dot};
 use hssh_metrics::GraphFile;
 
 use crate::arguments::MapArguments;
+use crate::command::export::refuse_unfit;
 use crate::command::stages::{building_file, map_file};
 use crate::failure::Failure;
 use crate::output::{
@@ -16,17 +17,20 @@ use crate::output::{
 
 /// Whether any picture or file is asked for.
 pub(super) fn is_asked(arguments: &MapArguments) -> bool {
-    let MapArguments { svg, dot, tree, g2o, grid, trajectory, debug_dir, .. } = arguments;
-    [svg, dot, tree, g2o, grid, trajectory, debug_dir].iter().any(|file| file.is_some())
+    let MapArguments { svg, dot, tree, g2o, grid, trajectory, debug_dir, page, .. } = arguments;
+    [svg, dot, tree, g2o, grid, trajectory, debug_dir, &page.html].iter().any(|file| file.is_some())
+        || !arguments.files.export.is_empty()
 }
 
 /// Refuses outputs that cannot be written, before anything is searched.
 pub(super) fn check(arguments: &MapArguments) -> Result<(), Failure> {
-    let MapArguments { svg, dot, tree, g2o, grid, trajectory, certificate, corrected, .. } = arguments;
+    let MapArguments { svg, dot, tree, g2o, grid, trajectory, certificate, corrected, page, .. } = arguments;
     let grid_image = grid_image(grid.as_deref());
-    let outputs =
-        [svg, dot, tree, g2o, grid, trajectory, certificate, corrected, &grid_image].map(Option::as_ref);
-    check_outputs(&[&arguments.file], outputs)?;
+    let outputs = [svg, dot, tree, g2o, grid, trajectory, certificate, corrected, &grid_image, &page.html]
+        .map(Option::as_ref);
+    refuse_unfit(&arguments.files, true)?;
+    let exported = arguments.files.export.iter().map(|(_, file)| Some(file));
+    check_outputs(&[&arguments.file], outputs.into_iter().chain(exported))?;
     check_folder(arguments.debug_dir.as_ref())
 }
 
@@ -56,7 +60,10 @@ pub(super) fn draw(
         let [svg, map_stage, dot, g2o, grid, trajectory, building_stage] =
             files.map(|file| numbered(file.as_deref(), index));
         let title = title(&arguments.file, index, best.len(), kind(&mapped.answer));
-        let picture = MapPicture::new(map, Some(title))?;
+        let mut picture = MapPicture::new(map, Some(title))?;
+        if let (1, Some(building)) = (map.rank, &mapped.answer.building) {
+            picture = picture.in_building(building);
+        }
         let outputs = [&svg, &dot, &g2o, &grid, &trajectory];
         for file in outputs.into_iter().flatten() {
             refuse_input(&arguments.file, file)?;

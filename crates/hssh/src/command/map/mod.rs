@@ -6,6 +6,8 @@ use hssh::answer::Listing;
 use hssh::pipeline::{Input, Mapped, MappingOptions, SearchMethod, SurveyedLog, map};
 
 use crate::arguments::MapArguments;
+use crate::command::export::write_maps;
+use crate::command::page;
 use crate::command::stages::draw_survey;
 use crate::failure::{Failure, Status};
 use crate::input::{read_input, refuse_partial, warn};
@@ -13,6 +15,13 @@ use crate::output::{Written, print, write_file};
 use crate::progress::watched;
 
 pub(crate) fn run(arguments: &MapArguments) -> Result<Status, Failure> {
+    let options = checked_options(arguments)?;
+    let input = read_input(&arguments.file, &options, &arguments.laser.topics)?;
+    answer(arguments, &input, &options, |_| ())
+}
+
+/// The options, if what is asked for can be done with them.
+pub(crate) fn checked_options(arguments: &MapArguments) -> Result<MappingOptions, Failure> {
     let options = arguments.options()?;
     if options.search.method == Some(SearchMethod::Count) && draw::is_asked(arguments) {
         let help = "counting keeps no maps to draw: choose another --search for pictures";
@@ -26,7 +35,16 @@ pub(crate) fn run(arguments: &MapArguments) -> Result<Status, Failure> {
             "--rank {rank} is not among the {listed} maps that are listed: add --top {rank}, or --all"
         )));
     }
-    let input = read_input(&arguments.file, &options, &arguments.laser.topics)?;
+    Ok(options)
+}
+
+/// Maps an input, prints the answer and writes what was asked for; `show` is given it before.
+pub(crate) fn answer(
+    arguments: &MapArguments,
+    input: &Input,
+    options: &MappingOptions,
+    show: impl FnOnce(&Mapped),
+) -> Result<Status, Failure> {
     if arguments.strict {
         refuse_partial(&arguments.file, input.as_surveyed())?;
     }
@@ -35,7 +53,11 @@ pub(crate) fn run(arguments: &MapArguments) -> Result<Status, Failure> {
         (Some(surveyed), Some(folder)) => draw_survey(&surveyed.log, &surveyed.survey, folder)?,
         (Some(_), None) => {}
     }
-    let mapped = searched(&input, &options)?;
+    let mut mapped = searched(input, options)?;
+    if arguments.with_trajectory {
+        mapped.carry_trajectories(input);
+    }
+    show(&mapped);
     // An answer that took long is printed all the same.
     let no_such_rank = arguments
         .rank
@@ -54,7 +76,7 @@ pub(crate) fn run(arguments: &MapArguments) -> Result<Status, Failure> {
     })?;
     let mut written = Written::default();
     if let Some(file) = &arguments.certificate {
-        let certificate = mapped.certificate(&input).ok_or(Failure::NothingProved);
+        let certificate = mapped.certificate(input).ok_or(Failure::NothingProved);
         written.note(certificate.and_then(|certificate| write_file(file, &certificate)));
     }
     if let (Some(file), Some(exploration)) = (&arguments.corrected, mapped.corrected()) {
@@ -63,7 +85,11 @@ pub(crate) fn run(arguments: &MapArguments) -> Result<Status, Failure> {
     if no_such_rank.is_some() {
         return Ok(Status::Refused);
     }
-    draw::draw(arguments, &input, &mapped, &mut written)?;
+    if let Some(file) = &arguments.page.html {
+        written.note(page::write(file, input, &mapped, options, arguments.rank));
+    }
+    draw::draw(arguments, input, &mapped, &mut written)?;
+    write_maps(&arguments.file, &arguments.files, arguments.rank, (input, &mapped), &mut written);
     written.done()?;
     Ok(Status::of(&mapped.answer))
 }
@@ -81,14 +107,15 @@ fn refuse_what_needs_a_log(arguments: &MapArguments) -> Result<(), Failure> {
     let is_asked = arguments.grid.is_some()
         || arguments.trajectory.is_some()
         || arguments.likeness.is_some()
+        || arguments.with_trajectory
         || arguments.debug_dir.is_some();
     let laser = &arguments.laser;
     if is_asked
         || !arguments.places.choice().is_usual()
         || !laser.choice().is_usual()
-        || laser.topics.is_given()
+        || laser.topics.choice().is_given()
     {
-        let help = "--grid, --trajectory, --likeness, --debug-dir, --fov, --laser-pose, --scan, --odom, --base-frame and what counts as a place need a laser log: an exploration has no scans";
+        let help = "--grid, --trajectory, --likeness, --debug-dir, --with-trajectory, --fov, --laser-pose, --scan, --odom, --base-frame and what counts as a place need a laser log: an exploration has no scans";
         return Err(Failure::Usage(help.to_owned()));
     }
     Ok(())

@@ -1,0 +1,117 @@
+//! Reading logs: those that are still being written, of which what has come so far is a log at any time, and whole ones.
+
+use std::io::Read;
+
+use super::error::{LogError, LogWarning};
+use super::log::{LaserLog, LoggedScan};
+use super::message::Message;
+use super::mount::LaserMount;
+use super::position::LogPosition;
+use super::raw::{self, RawLog, RawScan};
+use super::reader::LogReader;
+use crate::scan::Scan;
+
+/// The messages of a log in order, as far as they have come.
+#[derive(Clone)]
+pub struct GrowingLog {
+    raw: RawLog,
+    known: LaserMount,
+    lines: u64,
+    warnings: Vec<LogWarning>,
+}
+
+impl GrowingLog {
+    /// A log without messages yet, of whose laser something may be known that the log will not say, or will say wrongly.
+    #[must_use]
+    pub fn new(known: LaserMount) -> Self {
+        GrowingLog { raw: RawLog::default(), known, lines: 0, warnings: Vec::new() }
+    }
+
+    /// Adds what a reader read last, and what it passed over before; nothing but the latter at its end.
+    pub fn add(&mut self, message: Option<Message>, reader: &mut LogReader<'_>) {
+        self.lines = reader.line();
+        self.warnings.append(&mut reader.take_warnings());
+        if let Some(message) = message {
+            self.raw.add(message, LogPosition::Line(self.lines));
+        }
+    }
+
+    /// How many laser messages have come.
+    #[must_use]
+    pub fn scans(&self) -> usize {
+        self.raw.scans.len()
+    }
+
+    /// The log as if it ended here.
+    ///
+    /// # Errors
+    /// If it has no usable scan, or if hardly a beam came back.
+    pub fn log(&self) -> Result<LaserLog, LogError> {
+        self.clone().into_log()
+    }
+
+    /// The log, which is whole.
+    ///
+    /// # Errors
+    /// If it has no usable scan, or if hardly a beam came back.
+    pub fn into_log(self) -> Result<LaserLog, LogError> {
+        let GrowingLog { mut raw, known, lines, mut warnings } = self;
+        if raw.scans.is_empty() {
+            return Err(raw.why_useless(lines, warnings));
+        }
+        raw.keep_best_kind();
+        raw.keep_usual_scans(&mut warnings);
+        raw.tell_odd_beams(&mut warnings);
+        let (view, turn, is_told) = raw.view(&known);
+        raw.check_view(view, is_told, &mut warnings);
+        raw.move_to_laser(&known, &mut warnings);
+        raw.bridge_jumps(&mut warnings);
+        let max_range = raw.limit(&mut warnings)?;
+        let is_facing_unclear = raw.check_facing(view, max_range, &mut warnings);
+        warnings.sort_by_key(LogWarning::position);
+        let logged = |scan: RawScan| LoggedScan {
+            scan: Scan { ranges: raw::came_back(scan.ranges, max_range), view, turn },
+            odometry: raw.trajectory[scan.moment].pose,
+            moment: scan.moment,
+            corrected: scan.corrected,
+            at: scan.at,
+            time: scan.time,
+        };
+        Ok(LaserLog {
+            scans: raw.scans.into_iter().map(logged).collect(),
+            trajectory: raw.trajectory.into_iter().map(|moment| moment.pose).collect(),
+            max_range,
+            skipped: raw.skipped,
+            is_facing_unclear,
+            warnings,
+        })
+    }
+}
+
+impl LaserLog {
+    /// Reads a log, plain or gzip. Messages that cannot be used are left out with a warning; a log that
+    /// breaks off is used up to there.
+    ///
+    /// # Errors
+    /// If the source cannot be read, is no text, is empty, has no usable scan, or if hardly a beam came back.
+    pub fn read(source: impl Read) -> Result<Self, LogError> {
+        LaserLog::read_with(source, &LaserMount::default())
+    }
+
+    /// Reads a log as [`read`](Self::read) does, knowing of the laser what the log does not say, or says wrongly.
+    ///
+    /// # Errors
+    /// As [`read`](Self::read).
+    pub fn read_with(source: impl Read, known: &LaserMount) -> Result<Self, LogError> {
+        let mut reader = LogReader::new(source)?;
+        let mut growing = GrowingLog::new(*known);
+        loop {
+            let message = reader.next_message()?;
+            let is_end = message.is_none();
+            growing.add(message, &mut reader);
+            if is_end {
+                return growing.into_log();
+            }
+        }
+    }
+}

@@ -1,0 +1,152 @@
+//! What a robot is sent by: points and straight legs between them, the corners of ways among the points.
+
+use super::error::ExportError;
+use super::route_graph::{RouteGraph, distance};
+
+/// No two neighboring points of a way are farther apart, in metres.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub struct Spacing(f64);
+
+/// A graph in which straight from point to point can be driven wherever there is a leg.
+#[derive(Clone, PartialEq, Debug)]
+pub struct DriveGraph<'a> {
+    /// What it is made of.
+    pub routes: &'a RouteGraph,
+    /// The nodes of the routes in their order, and behind them the points on the ways, way by way.
+    pub points: Vec<DrivePoint>,
+    /// The legs, way by way; each can be driven in both directions. There is one at least.
+    pub legs: Vec<DriveLeg>,
+}
+
+/// A point to drive to.
+#[derive(Clone, PartialEq, Debug)]
+pub struct DrivePoint {
+    /// Its name; no other point has it.
+    pub name: String,
+    /// Where it is, in metres.
+    pub position: [f64; 2],
+    /// The way that it is a corner of; `None` for nodes.
+    pub way: Option<usize>,
+}
+
+/// A straight part of a way.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub struct DriveLeg {
+    /// The points, by number; they are different ones.
+    pub ends: [usize; 2],
+    /// The way that it is a part of.
+    pub way: usize,
+}
+
+impl Spacing {
+    /// Nothing is driven by points that are nearer than that, in metres.
+    pub const LEAST: f64 = 0.05;
+
+    /// So many metres; `None` if that is less than [`Spacing::LEAST`] or no number.
+    #[must_use]
+    pub fn new(metres: f64) -> Option<Self> {
+        (metres >= Self::LEAST && metres.is_finite()).then_some(Spacing(metres))
+    }
+
+    /// In metres.
+    #[must_use]
+    pub fn metres(self) -> f64 {
+        self.0
+    }
+}
+
+/// Five metres.
+impl Default for Spacing {
+    fn default() -> Self {
+        Spacing(5.0)
+    }
+}
+
+impl<'a> DriveGraph<'a> {
+    /// So many points are made at most.
+    pub const MOST_POINTS: usize = 1_000_000;
+    /// Corners nearer to the point before are left out, in metres.
+    const NEAREST: f64 = 1e-3;
+
+    /// The points and legs of routes, with the corners of their ways and, where these are far apart, points between.
+    ///
+    /// # Errors
+    /// If there is no way, a node has no position, a way has no line, or there would be too many points.
+    pub fn new(routes: &'a RouteGraph, spacing: Spacing) -> Result<Self, ExportError> {
+        if routes.ways.is_empty() {
+            return Err(ExportError::NoLink);
+        }
+        let node = |(number, node): (usize, &super::RouteNode)| {
+            Ok(DrivePoint { name: node.name.clone(), position: routes.position(number)?, way: None })
+        };
+        let points = routes.nodes.iter().enumerate().map(node).collect::<Result<_, ExportError>>()?;
+        let mut graph = DriveGraph { routes, points, legs: Vec::new() };
+        for way in 0..routes.ways.len() {
+            graph.add_way(way, spacing)?;
+        }
+        Ok(graph)
+    }
+
+    fn add_way(&mut self, number: usize, spacing: Spacing) -> Result<(), ExportError> {
+        let way = &self.routes.ways[number];
+        let [from, to] = way.ends;
+        let corners = corners(&way.line, [from, to].map(|end| self.points[end].position));
+        let line = subdivided(&corners, spacing).ok_or(ExportError::TooMany { most: Self::MOST_POINTS })?;
+        let inner = &line[1..line.len() - 1];
+        if from == to && inner.is_empty() {
+            return Err(ExportError::UnknownLoop { way: number, place: from });
+        }
+        if self.points.len() + inner.len() > Self::MOST_POINTS {
+            return Err(ExportError::TooMany { most: Self::MOST_POINTS });
+        }
+        let first = self.points.len();
+        self.points.extend(inner.iter().enumerate().map(|(index, &position)| DrivePoint {
+            name: format!("way {number}.{}", index + 1),
+            position,
+            way: Some(number),
+        }));
+        let chain: Vec<usize> =
+            std::iter::once(from).chain(first..first + inner.len()).chain(std::iter::once(to)).collect();
+        self.legs.extend(chain.windows(2).map(|pair| DriveLeg { ends: [pair[0], pair[1]], way: number }));
+        Ok(())
+    }
+
+    /// How long a leg is, in metres.
+    #[must_use]
+    pub fn length(&self, leg: &DriveLeg) -> f64 {
+        let [from, to] = leg.ends.map(|end| self.points[end].position);
+        distance(from, to)
+    }
+}
+
+/// The corners of a line from node to node: those that lie on the one before are left out.
+fn corners(line: &[[f64; 2]], [from, to]: [[f64; 2]; 2]) -> Vec<[f64; 2]> {
+    let mut corners = vec![from];
+    let inner = line.get(1..line.len().saturating_sub(1)).unwrap_or_default();
+    for &corner in inner {
+        let is_new = |other: &[f64; 2]| distance(corner, *other) > DriveGraph::NEAREST;
+        if corners.last().is_some_and(is_new) && is_new(&to) {
+            corners.push(corner);
+        }
+    }
+    corners.push(to);
+    corners
+}
+
+/// The line with points between corners that are too far apart; `None` if they would be too many.
+fn subdivided(corners: &[[f64; 2]], spacing: Spacing) -> Option<Vec<[f64; 2]>> {
+    let mut line = vec![corners[0]];
+    for pair in corners.windows(2) {
+        let parts = (distance(pair[0], pair[1]) / spacing.metres()).ceil().max(1.0);
+        if !(parts + line.len() as f64 <= DriveGraph::MOST_POINTS as f64) {
+            return None;
+        }
+        let between = |part: u64| {
+            let part = part as f64 / parts;
+            [0, 1].map(|axis| pair[0][axis] + part * (pair[1][axis] - pair[0][axis]))
+        };
+        line.extend((1..parts as u64).map(between));
+        line.push(pair[1]);
+    }
+    Some(line)
+}
