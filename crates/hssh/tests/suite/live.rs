@@ -60,7 +60,8 @@ impl Live {
 
 /// An answer but for what it was called and how long it took.
 fn answer(output: &Output) -> Value {
-    let mut answer: Value = serde_json::from_slice(&output.stdout).expect(&text(&output.stderr));
+    let mut answer: Value =
+        serde_json::from_slice(&output.stdout).unwrap_or_else(|_| panic!("{}", text(&output.stderr)));
     answer["input"]["name"] = Value::Null;
     answer["search"]["seconds"] = Value::Null;
     answer
