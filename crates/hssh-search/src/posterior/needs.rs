@@ -82,10 +82,11 @@ impl Needs {
     /// Where less is explained than the first near visit, only visits at new places can be near.
     pub(super) fn without(&self, need: &Need, visit: usize, earlier: usize) -> Need {
         let taken = &self.needs[earlier];
-        let first = [0..earlier as u32];
+        let all = 0..earlier as u32;
+        let first = std::slice::from_ref(&all);
         let intervals = match need {
             Need::Always if earlier == 0 => return Need::never(),
-            Need::Always => &first[..],
+            Need::Always => first,
             Need::With(intervals) => intervals,
             Need::Bits(_) => &[],
         };
@@ -98,7 +99,7 @@ impl Needs {
                 left.iter_mut().zip(taken.bits(earlier)).for_each(|(left, taken)| *left &= !taken);
                 if left.iter().all(|&word| word == 0) { Need::never() } else { Need::Bits(left.into()) }
             }
-            (_, Need::Always) => Need::With(without(intervals, &first).into()),
+            (_, Need::Always) => Need::With(without(intervals, first).into()),
             (_, Need::With(taken)) => {
                 let left = Need::With(without(intervals, taken).into());
                 let is_long = matches!(&left, Need::With(left) if left.len() > 4 && 64 * left.len() > visit);

@@ -80,8 +80,8 @@ impl TopologicalMap {
         }
     }
 
-    /// How many words a set of places has.
+    /// How many words a set of places has: one at least.
     fn words_of_places(&self) -> usize {
-        self.places.len().div_ceil(64)
+        self.places.len().div_ceil(64).max(1)
     }
 }

@@ -131,4 +131,7 @@ fn retracting_an_empty_map_does_nothing() {
     let mut map = TopologicalMap::new();
     map.retract();
     assert_eq!(format!("{map:?}"), format!("{:?}", TopologicalMap::new()));
+    let lean = TopologicalMap::without_boundaries();
+    lean.sanity_check().unwrap();
+    assert_eq!((lean.undetermined_boundary_count(), lean.is_perpendicular()), (0, true));
 }

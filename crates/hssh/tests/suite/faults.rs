@@ -282,7 +282,7 @@ fn what_is_wrong_with_an_input_is_said_first() {
         let first = said.lines().next().unwrap_or_default();
         let is_right = output.status.code() == Some(fault.exit) && first.contains(fault.says);
         let told: String = first.replace(&file, "FILE").chars().take(80).collect();
-        println!("{:<26} {:<6} {told}", fault.case, if is_right { "right" } else { "WRONG" });
+        println!("{:<34} {:<6} {told}", fault.case, if is_right { "right" } else { "WRONG" });
         if !is_right {
             let (code, errors) = (output.status.code(), text(&output.stderr));
             let _ = writeln!(wrong, "{}: {code:?}: {first}\n{errors}", fault.case);
