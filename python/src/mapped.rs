@@ -3,6 +3,7 @@
 use std::sync::Arc;
 
 use hssh::answer::{Answer, Explanation, Listing, MapPicture};
+use hssh::export::export_map;
 use hssh::pipeline::{Input, Mapped, MappingOptions, PipelineError, SurveyedLog, map};
 use hssh_draw::{Bearings, SearchTree, TreeOptions, draw_tree, tree_to_dot};
 use hssh_metrics::GraphFile;
@@ -13,6 +14,7 @@ use crate::arrays::poses;
 use crate::errors::{Kind, argument, error, format_error, interrupted, of_pipeline};
 use crate::exploration::PyExploration;
 use crate::grid::PyGrid;
+use crate::places::{export_kind, spacing_of};
 use crate::pose_graph::PyPoseGraph;
 use crate::survey::PySurvey;
 use crate::watch::{Stop, calmly, finished, watched};
@@ -134,6 +136,7 @@ impl PyMapped {
             maps: _,
             visits,
             readings,
+            building,
             warnings,
         } = self.answer();
         let head = Answer {
@@ -146,6 +149,7 @@ impl PyMapped {
             maps: Vec::new(),
             visits: visits.clone(),
             readings: readings.clone(),
+            building: building.clone(),
             warnings: warnings.clone(),
         };
         calmly(|| Ok(head.to_json()))
@@ -178,6 +182,15 @@ impl PyMapped {
             Ok(if dot { picture.to_dot() } else { picture.to_svg() })
         })?;
         drawn.map_err(|problem: hssh::answer::PictureError| error(Kind::Search, problem))
+    }
+
+    /// A map for another program, and what whoever uses it should know.
+    fn export(&self, kind: &str, rank: Option<usize>, spacing: f64) -> PyResult<(String, Vec<String>)> {
+        let (kind, spacing) = (export_kind(kind)?, spacing_of(spacing)?);
+        calmly(|| {
+            let exported = export_map(self.answer(), rank, kind, spacing).map_err(argument)?;
+            Ok((exported.text, exported.warnings))
+        })
     }
 
     /// The picture of the search tree, and whether as DOT.

@@ -1,18 +1,20 @@
 //! The regions, passages, places and ways of a grid map.
 
+use clap::ValueEnum;
 use hssh::account::{PlaceAccount, PlacesAccount, PointName};
-use hssh::export::{nav2_graph, open_rmf_graph, osm_ag, regions_geojson, topological_map};
+use hssh::export::{ExportKind, Spacing, export_places};
 use hssh::pipeline::PlaceChoice;
 use hssh_draw::{GridPicture, RegionPicture, draw_grid};
 use hssh_local::{
     PlaceGraph, PlaceOptions, RegionMap, RegionOptions, Roadmap, RoadmapOptions, UnknownSpace, neighborhood,
+    without_rims,
 };
 use pyo3::prelude::*;
 
 use crate::arrays::shaped;
 use crate::errors::{Kind, argument, error};
 use crate::grid::PyGrid;
-use crate::watch::finished;
+use crate::watch::{calmly, finished};
 
 /// How far the part of a map that is looked at around one point reaches, in metres, beyond the shallowest way out.
 const MARGIN: f64 = 6.5;
@@ -38,6 +40,25 @@ fn choice(narrowest: Option<f64>, shallowest: Option<f64>, clutter: Option<f64>)
 
 fn unknown(is_free: bool) -> UnknownSpace {
     if is_free { UnknownSpace::Free } else { UnknownSpace::Wall }
+}
+
+/// For which program a map is written.
+pub(crate) fn export_kind(kind: &str) -> PyResult<ExportKind> {
+    ExportKind::from_str(&kind.replace('_', "-"), false).map_err(|_| {
+        let known: Vec<String> =
+            ExportKind::value_variants().iter().map(|known| known.to_string().replace('-', "_")).collect();
+        argument(format!("kind is \"{kind}\": write one of {}", known.join(", ")))
+    })
+}
+
+/// How far neighboring points of a way may be apart.
+pub(crate) fn spacing_of(metres: f64) -> PyResult<Spacing> {
+    Spacing::new(metres).ok_or_else(|| {
+        argument(format!(
+            "spacing is {metres}: write the metres between points of a way, {} or more",
+            Spacing::LEAST
+        ))
+    })
 }
 
 /// Finds the regions of a grid map, and the ways of a robot through them.
@@ -75,7 +96,8 @@ pub(crate) fn find_places(
         let map = RegionMap::new(grid, &regions)?;
         let roadmap = Roadmap::new(grid, &map, &ways);
         let account = if detail {
-            PlacesAccount::of_axis(name, &map, &roadmap, &PlaceGraph::new(grid, &parameters)?, grid)
+            let ground = without_rims(grid, regions.rim);
+            PlacesAccount::of_axis(name, &map, &roadmap, &PlaceGraph::new(&ground, &parameters)?, &ground)
         } else {
             PlacesAccount::of_regions(name, &map, &roadmap, radius)
         };
@@ -110,7 +132,8 @@ pub(crate) fn place_around(
     let outside = || argument(format!("the point ({x}, {y}) is not on the map"));
     let window = Some([x, y]).filter(|_| x.is_finite() && y.is_finite());
     let window = window.and_then(|point| grid.grid.window(point, side)).ok_or_else(outside)?;
-    let found = finished(py, |_| neighborhood(&window, [x, y], &parameters))?;
+    let rim = RegionOptions::default().rim;
+    let found = finished(py, |_| neighborhood(&without_rims(&window, rim), [x, y], &parameters))?;
     let found = found.map_err(|problem| error(Kind::Survey, format!("{}: {problem}", grid.name)))?;
     let place = PlaceAccount::new(found.kind, found.center, found.clearance, &found.star);
     serde_json::to_string(&place).map_err(|problem| error(Kind::Internal, problem))
@@ -136,20 +159,9 @@ impl PyPlaces {
     }
 
     /// The map for another program.
-    fn export(&self, kind: &str) -> PyResult<String> {
-        let text = match kind {
-            "nav2" => nav2_graph(&self.account),
-            "open_rmf" => open_rmf_graph(&self.account),
-            "tmap" => topological_map(&self.account),
-            "osmag" => Ok(osm_ag(&self.account)),
-            "regions" => Ok(regions_geojson(&self.account)),
-            _ => {
-                return Err(argument(format!(
-                    "kind is \"{kind}\": write one of nav2, open_rmf, tmap, osmag, regions"
-                )));
-            }
-        };
-        text.map_err(argument)
+    fn export(&self, kind: &str, spacing: f64) -> PyResult<String> {
+        let (kind, spacing) = (export_kind(kind)?, spacing_of(spacing)?);
+        calmly(|| Ok(export_places(&self.account, kind, spacing).map_err(argument)?.text))
     }
 
     /// The map with its regions, doors and ways as SVG.

@@ -7,6 +7,7 @@ counterclockwise; places, visits, travels and scans count from 0, ranks from 1; 
 from __future__ import annotations
 
 import json
+import warnings
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
 from typing import Any, overload
@@ -164,6 +165,7 @@ class End:
     label: str | None = None
     bearing: float | None = None
     leads_to: EndReference | None = None
+    gateway: tuple[tuple[float, float], tuple[float, float]] | None = None
 
 
 @dataclass(frozen=True)
@@ -186,6 +188,7 @@ class Place:
     star: str
     ends: list[End]
     pose: Pose | None = None
+    region: int | None = None
 
 
 @dataclass(frozen=True)
@@ -194,6 +197,7 @@ class Link:
 
     from_: EndReference = field(metadata={"json": "from"})
     to: EndReference
+    way: list[tuple[float, float]] = field(default_factory=list)
 
 
 @dataclass(frozen=True)
@@ -289,6 +293,7 @@ class Map:
     probability: tuple[float, float] | None = None
     costs: Costs | None = None
     difference: Difference | None = None
+    trajectory: list[tuple[float, float, float, float]] = field(default_factory=list)
     _mapped: Any = field(default=None, repr=False, compare=False)
 
     @property
@@ -339,6 +344,7 @@ class Visit:
     scan: int | None = None
     scans: tuple[int, int] | None = None
     times: tuple[float, float] | None = None
+    region: int | None = None
 
 
 @dataclass(frozen=True)
@@ -363,6 +369,49 @@ class Readings:
     found: int
     corrections: list[Correction]
     visits: list[tuple[int, int]]
+
+
+@dataclass(frozen=True)
+class BuildingRegion:
+    """A region of the building along a log: `kind` is "room", "corridor", "hall", "doorway" or "unexplored"."""
+
+    kind: str
+    area: float
+    width: float
+    explored: float
+    stays: int
+    outline: list[list[tuple[float, float]]]
+    places: list[int] = field(default_factory=list)
+    passages: list[int] = field(default_factory=list)
+    holes: list[list[tuple[float, float]]] = field(default_factory=list)
+
+
+@dataclass(frozen=True)
+class BuildingPassage:
+    """Where two regions of the building lead to one another: `kind` is "door" or "opening"."""
+
+    kind: str
+    door_probability: float
+    regions: tuple[int, int]
+    width: float
+    line: tuple[tuple[float, float], tuple[float, float]]
+
+
+@dataclass(frozen=True)
+class Stay:
+    """A stretch of the robot's way in one region."""
+
+    region: int
+    scans: tuple[int, int]
+
+
+@dataclass(frozen=True)
+class Building:
+    """The building as all scans of a log draw it where the first map has them."""
+
+    regions: list[BuildingRegion]
+    passages: list[BuildingPassage]
+    stays: list[Stay]
 
 
 @dataclass(frozen=True)
@@ -395,6 +444,7 @@ class _Head:
     visits: list[Visit]
     warnings: list[Warning]
     readings: Readings | None = None
+    building: Building | None = None
 
 
 class Maps(Sequence):
@@ -445,8 +495,8 @@ class Answer:
         The best maps, the best one first.
     visits : list of Visit
         What the robot visited, and where that is in the first map.
-    input, search, certificate, readings, warnings
-        What was asked, how it was searched, what is proved, what is taken for misread, and what to know.
+    input, search, certificate, readings, building, warnings
+        What was asked, how it was searched, what is proved, what is taken for misread, the building that a log shows, and what to know.
     """
 
     def __init__(self, mapped: Any) -> None:
@@ -458,6 +508,7 @@ class Answer:
         self.certificate: Certificate = head.certificate
         self.visits: list[Visit] = head.visits
         self.readings: Readings | None = head.readings
+        self.building: Building | None = head.building
         self.warnings: list[Warning] = head.warnings
         self.maps: Maps = Maps(mapped)
 
@@ -507,6 +558,23 @@ class Answer:
     def exploration(self) -> _hssh.Exploration:
         """What the maps are of: the exploration, or as it must have been if something is taken for misread."""
         return self._mapped.exploration()
+
+    def export(self, kind: str, rank: int | None = None, *, spacing: float = 5.0) -> str:
+        """A map for another program: "nav2", "open_rmf", "tmap", "osmag", "graphml" or "geojson".
+
+        Parameters
+        ----------
+        kind : str
+            For which program.
+        rank : int, optional
+            Which map; by default the first, which is refused if it is to be driven by and may well be wrong.
+        spacing : float
+            No two neighboring points of a way are farther apart: metres.
+        """
+        text, doubts = self._mapped.export(kind, rank, spacing)
+        for doubt in doubts:
+            warnings.warn(f"{kind} of a map that may be wrong: {doubt}", stacklevel=2)
+        return text
 
     def certificate_text(self) -> str | None:
         """What the proof rests on, for ``hssh verify``; None if nothing is proved."""

@@ -186,9 +186,12 @@ class Places:
         """The number of the region of each cell, or -1: shape (H, W), int32, the bottom row first."""
         return self._found.labels()
 
-    def export(self, kind: str) -> str:
-        """The map for another program: "nav2", "open_rmf", "tmap", "osmag" or "regions" (GeoJSON)."""
-        return self._found.export(kind)
+    def export(self, kind: str, *, spacing: float = 5.0) -> str:
+        """The map for another program: "nav2", "open_rmf", "tmap", "osmag", "graphml", "geojson" or "regions" (GeoJSON).
+
+        No two neighboring points of a way are farther apart than `spacing`, in metres.
+        """
+        return self._found.export(kind, spacing)
 
     def to_json(self) -> str:
         """Everything as JSON, as the program's ``hssh stars --json`` prints it."""
