@@ -119,15 +119,17 @@ impl<'a> DriveGraph<'a> {
     }
 }
 
-/// The corners of a line from node to node: those that lie on the one before are left out.
+/// The corners of a line from node to node: those that lie on the one before are left out, and the last ones that lie on its end.
 fn corners(line: &[[f64; 2]], [from, to]: [[f64; 2]; 2]) -> Vec<[f64; 2]> {
+    let is_apart = |one: [f64; 2], other: [f64; 2]| distance(one, other) > DriveGraph::NEAREST;
     let mut corners = vec![from];
-    let inner = line.get(1..line.len().saturating_sub(1)).unwrap_or_default();
-    for &corner in inner {
-        let is_new = |other: &[f64; 2]| distance(corner, *other) > DriveGraph::NEAREST;
-        if corners.last().is_some_and(is_new) && is_new(&to) {
+    for &corner in line.get(1..line.len().saturating_sub(1)).unwrap_or_default() {
+        if is_apart(corner, corners[corners.len() - 1]) {
             corners.push(corner);
         }
+    }
+    while corners.len() > 1 && !is_apart(corners[corners.len() - 1], to) {
+        corners.pop();
     }
     corners.push(to);
     corners
