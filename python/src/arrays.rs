@@ -38,7 +38,7 @@ fn array<'py, T: Element>(
         return Err(wrong_type(format!("{name} must be an array of {}, not of {found}", words(kinds))));
     }
     let fit = numpy.call_method1("require", (array, dtype, "A"))?;
-    Ok(fit.extract::<PyReadonlyArrayDyn<'py, T>>()?)
+    fit.extract()
 }
 
 fn words(kinds: &str) -> &'static str {
@@ -233,7 +233,7 @@ pub(crate) fn shaped<'py, T: Element, const D: usize>(
     numbers: Vec<T>,
     shape: [usize; D],
 ) -> PyResult<Bound<'py, PyAny>> {
-    Ok(PyArray1::from_vec(py, numbers).call_method1("reshape", (shape.to_vec(),))?)
+    PyArray1::from_vec(py, numbers).call_method1("reshape", (shape.to_vec(),))
 }
 
 /// Poses as an (N, 3) array of x, y, θ.
