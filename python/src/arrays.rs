@@ -15,15 +15,6 @@ use crate::errors::{argument, wrong_type};
 const MOST_ROWS: usize = 1 << 26;
 const MOST_NUMBERS: usize = 1 << 30;
 
-/// What a number may be.
-#[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub(crate) enum Finite {
-    /// Finite only.
-    Required,
-    /// NaN and infinity mean something.
-    Optional,
-}
-
 /// An array of one type that is aligned, whatever its strides; of a list as well.
 fn array<'py, T: Element>(
     name: &str,
@@ -47,7 +38,7 @@ fn array<'py, T: Element>(
         return Err(wrong_type(format!("{name} must be an array of {}, not of {found}", words(kinds))));
     }
     let fit = numpy.call_method1("require", (array, dtype, "A"))?;
-    Ok(fit.extract::<PyReadonlyArrayDyn<'py, T>>()?)
+    fit.extract()
 }
 
 fn words(kinds: &str) -> &'static str {
@@ -76,12 +67,8 @@ fn room<T>(name: &str, rows: usize) -> PyResult<Vec<T>> {
     Ok(room)
 }
 
-/// The rows of an (N, C) array of numbers.
-pub(crate) fn table<const C: usize>(
-    name: &str,
-    value: &Bound<'_, PyAny>,
-    finite: Finite,
-) -> PyResult<Vec<[f64; C]>> {
+/// The rows of an (N, C) array of numbers, all finite.
+pub(crate) fn table<const C: usize>(name: &str, value: &Bound<'_, PyAny>) -> PyResult<Vec<[f64; C]>> {
     let array = array::<f64>(name, value, "fiu", "float64")?;
     if array.shape() == [0] {
         return Ok(Vec::new());
@@ -93,8 +80,7 @@ pub(crate) fn table<const C: usize>(
     let mut rows = room(name, view.nrows())?;
     for (index, row) in view.outer_iter().enumerate() {
         let numbers: [f64; C] = from_fn(|column| row[column]);
-        let odd = numbers.iter().position(|number| !number.is_finite());
-        if let (Some(column), Finite::Required) = (odd, finite) {
+        if let Some(column) = numbers.iter().position(|number| !number.is_finite()) {
             return Err(not_finite(name, &format!("{index}, {column}"), numbers[column]));
         }
         rows.push(numbers);
@@ -106,8 +92,8 @@ fn not_finite(name: &str, place: &str, number: f64) -> PyErr {
     argument(format!("{name}[{place}] is {number}, which is no finite number"))
 }
 
-/// The numbers of an (N,) array.
-pub(crate) fn row(name: &str, value: &Bound<'_, PyAny>, finite: Finite) -> PyResult<Vec<f64>> {
+/// The numbers of an (N,) array, all finite.
+pub(crate) fn row(name: &str, value: &Bound<'_, PyAny>) -> PyResult<Vec<f64>> {
     let array = array::<f64>(name, value, "fiu", "float64")?;
     if array.ndim() != 1 {
         return Err(misshapen(name, "(N,)", array.shape()));
@@ -116,10 +102,8 @@ pub(crate) fn row(name: &str, value: &Bound<'_, PyAny>, finite: Finite) -> PyRes
     let mut numbers: Vec<f64> = room(name, view.len())?;
     numbers.extend(view.iter());
     match numbers.iter().position(|number| !number.is_finite()) {
-        Some(index) if finite == Finite::Required => {
-            Err(not_finite(name, &index.to_string(), numbers[index]))
-        }
-        _ => Ok(numbers),
+        Some(index) => Err(not_finite(name, &index.to_string(), numbers[index])),
+        None => Ok(numbers),
     }
 }
 
@@ -172,7 +156,7 @@ pub(crate) fn covariance(name: &str, value: &Bound<'_, PyAny>) -> PyResult<[[f64
 
 /// Three numbers.
 pub(crate) fn triple(name: &str, value: &Bound<'_, PyAny>) -> PyResult<[f64; 3]> {
-    let numbers = row(name, value, Finite::Required)?;
+    let numbers = row(name, value)?;
     numbers[..].try_into().map_err(|_| misshapen(name, "(3,)", &[numbers.len()]))
 }
 
@@ -231,9 +215,12 @@ pub(crate) fn selection(name: &str, value: &Bound<'_, PyAny>, count: usize) -> P
 pub(crate) fn cells(name: &str, value: &Bound<'_, PyAny>) -> PyResult<(char, [usize; 2], Vec<i64>)> {
     let numpy = value.py().import("numpy")?;
     let kind: char = numpy.call_method1("asarray", (value,))?.getattr("dtype")?.getattr("kind")?.extract()?;
-    let array = array::<i64>(name, value, "biu", "int64").map_err(|_| {
-        wrong_type(format!("{name} must be an array of bools or integers: threshold probabilities first"))
-    })?;
+    if !"biu".contains(kind) {
+        return Err(wrong_type(format!(
+            "{name} must be an array of bools or integers: threshold probabilities first"
+        )));
+    }
+    let array = array::<i64>(name, value, "biu", "int64")?;
     let [height, width] = *array.shape() else { return Err(misshapen(name, "(H, W)", array.shape())) };
     let mut cells = room(name, height.saturating_mul(width))?;
     cells.extend(array.as_array().iter());
@@ -246,7 +233,7 @@ pub(crate) fn shaped<'py, T: Element, const D: usize>(
     numbers: Vec<T>,
     shape: [usize; D],
 ) -> PyResult<Bound<'py, PyAny>> {
-    Ok(PyArray1::from_vec(py, numbers).call_method1("reshape", (shape.to_vec(),))?)
+    PyArray1::from_vec(py, numbers).call_method1("reshape", (shape.to_vec(),))
 }
 
 /// Poses as an (N, 3) array of x, y, θ.

@@ -1,6 +1,6 @@
 //! Files as input: what they hold decides what is made of them.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use hssh::file::{Source, TopicChoice};
 use hssh::kind::FileKind;
@@ -12,7 +12,7 @@ use crate::grid::PyGrid;
 use crate::log::{PyLog, laser_choice};
 use crate::pose_graph::PyPoseGraph;
 
-fn open(path: &PathBuf) -> PyResult<Source> {
+fn open(path: &Path) -> PyResult<Source> {
     if path.as_os_str() == "-" {
         return Err(argument("`-` is standard input to the program, and no file: give the path of one"));
     }

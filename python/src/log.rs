@@ -12,7 +12,7 @@ use hssh_metrics::{GraphFile, Pose};
 use numpy::PyArray1;
 use pyo3::prelude::*;
 
-use crate::arrays::{Finite, pose, poses, row, shaped, sweeps, table};
+use crate::arrays::{pose, poses, row, shaped, sweeps, table};
 use crate::errors::{Kind, argument, error, interrupted, of_file};
 use crate::grid::PyGrid;
 use crate::mapped::options;
@@ -129,11 +129,10 @@ impl PyLog {
             )));
         }
         let times = match times {
-            Some(times) => row("times", times, Finite::Required)?,
+            Some(times) => row("times", times)?,
             None => (0..ranges.len()).map(|index| index as f64).collect(),
         };
-        let odometry =
-            odometry.map(|odometry| table::<3>("odometry", odometry, Finite::Required)).transpose()?;
+        let odometry = odometry.map(|odometry| table::<3>("odometry", odometry)).transpose()?;
         let lengths = [("times", Some(times.len())), ("odometry", odometry.as_ref().map(Vec::len))];
         for (name, length) in lengths {
             if length.is_some_and(|length| length != ranges.len()) {

@@ -17,7 +17,7 @@ use hssh_metrics::{
 use numpy::PyArray1;
 use pyo3::prelude::*;
 
-use crate::arrays::{Finite, indices, matrices, pose, poses, selection, shaped, stack, table};
+use crate::arrays::{indices, matrices, pose, poses, selection, shaped, stack, table};
 use crate::errors::{argument, format_error, interrupted, of_file, of_graph};
 use crate::marginals::PyMarginals;
 use crate::optimized::PySolution;
@@ -92,7 +92,7 @@ impl PyPoseGraph {
 
     /// Poses given for those of the graph.
     fn given(&self, value: &Bound<'_, PyAny>) -> PyResult<Vec<Pose>> {
-        let rows = table::<3>("poses", value, Finite::Required)?;
+        let rows = table::<3>("poses", value)?;
         if rows.len() != self.count() {
             return Err(argument(format!("{} poses were given for a graph of {}", rows.len(), self.count())));
         }
@@ -124,9 +124,9 @@ impl PyPoseGraph {
         information: &Bound<'_, PyAny>,
         anchored: Option<&Bound<'_, PyAny>>,
     ) -> PyResult<Self> {
-        let estimates = poses.map(|poses| table::<3>("poses", poses, Finite::Required)).transpose()?;
+        let estimates = poses.map(|poses| table::<3>("poses", poses)).transpose()?;
         let ends = indices::<2>("edges", edges, estimates.as_ref().map(Vec::len))?;
-        let measured = table::<3>("measurements", measurements, Finite::Required)?;
+        let measured = table::<3>("measurements", measurements)?;
         if measured.len() != ends.len() {
             return Err(argument(format!(
                 "there are {} edges and {} measurements: each edge has one",

@@ -163,11 +163,14 @@ impl PyStar {
         format!("Star(\"{}\")", self.__str__())
     }
 
-    fn __reduce__(slf: &Bound<'_, Self>) -> PyResult<(Py<PyAny>, (String, Vec<Option<f64>>))> {
+    fn __reduce__(slf: &Bound<'_, Self>) -> PyResult<(Py<PyAny>, Spelled)> {
         let star = slf.get();
         Ok((slf.get_type().into_any().unbind(), (star.__str__(), star.bearings.clone())))
     }
 }
+
+/// What the constructor takes: the ends, and where they point.
+type Spelled = (String, Vec<Option<f64>>);
 
 /// An end as the constructor reads it.
 fn spelled(end: &StarEnd) -> String {

@@ -139,7 +139,8 @@ def test_a_log_of_carmen_says_what_its_arrays_say(tmp_path):
     np.testing.assert_allclose(log.odometry, poses, atol=1e-5)
     np.testing.assert_allclose(log[0].angles, angles, atol=1e-9)
     turned = hssh.read_log(carmen(tmp_path), laser_pose=(0.0, 0.0, np.pi / 6))
-    np.testing.assert_allclose(turned[0].angles, angles + np.pi / 6, atol=1e-9)
+    np.testing.assert_allclose(turned[0].angles, angles, atol=1e-9)
+    np.testing.assert_allclose(turned.odometry[:, 2], poses[:, 2] + np.pi / 6, atol=1e-5)
 
 
 def test_the_log_of_aces_becomes_its_map():
@@ -148,7 +149,7 @@ def test_the_log_of_aces_becomes_its_map():
     survey = hssh.survey(Path(DATA) / "logs" / "aces.log.gz")
     answer = hssh.map(survey, planar=True)
     times, trajectory = answer.trajectory()
-    assert answer.best.measure.places == len(answer.best.places) and len(times) == len(trajectory) > 3000
+    assert answer.best.measure.places == len(answer.best.places) and len(times) == len(trajectory) > 400
     grid = answer.grid()
     assert (grid.cells == 0).sum() * grid.resolution**2 > 200
     assert len(answer.scan_graph()) == len(survey.poses)

@@ -355,7 +355,7 @@ class TestOnline:
             pass
         assert mapper.advance(nodes=500) == "node_limit"
         before = mapper.answer().search.nodes
-        assert before > 500
+        assert 0 < before < 1000, "the levels that are complete"
         stop = interrupting(0.5, lambda: mapper.advance(seconds=60, nodes=10**9))
         assert isinstance(stop.partial, hssh.Answer) and stop.partial.search.stop == "interrupted"
         assert stop.partial.search.nodes > before

@@ -73,7 +73,7 @@ fn lints(manifest: &str, section: &str) -> Vec<String> {
     let lines = manifest.lines().skip_while(|line| *line != section).skip(1);
     lines
         .take_while(|line| !line.starts_with('['))
-        .filter(|line| !line.is_empty() && !line.starts_with('#'))
+        .filter(|line| line.contains('='))
         .map(str::to_owned)
         .collect()
 }
@@ -85,8 +85,9 @@ fn collect(folder: &Path, files: &mut Vec<PathBuf>) -> Result<(), Box<dyn Error>
     }
     for entry in fs::read_dir(folder)? {
         let path = entry?.path();
-        let is_made =
-            ["target", "corpus", "artifacts", "__pycache__"].iter().any(|made| path.ends_with(made));
+        let is_made = ["target", "corpus", "artifacts", "__pycache__", ".pytest_cache", ".mypy_cache"]
+            .iter()
+            .any(|made| path.ends_with(made));
         if path.is_dir() && !is_made {
             collect(&path, files)?;
         } else if path.is_file() && path.extension().is_none_or(|ending| ending != "lock" && ending != "png")

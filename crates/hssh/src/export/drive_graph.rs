@@ -140,7 +140,9 @@ fn subdivided(corners: &[[f64; 2]], spacing: Spacing) -> Option<Vec<[f64; 2]>> {
     let mut line = vec![corners[0]];
     for pair in corners.windows(2) {
         let parts = (distance(pair[0], pair[1]) / spacing.metres()).ceil().max(1.0);
-        if !(parts + line.len() as f64 <= DriveGraph::MOST_POINTS as f64) {
+        let most = DriveGraph::MOST_POINTS as f64;
+        // Of lengths that are no numbers nothing can be said.
+        if (parts + line.len() as f64).total_cmp(&most).is_gt() {
             return None;
         }
         let between = |part: u64| {

@@ -330,7 +330,8 @@ proptest! {
                 (node.attribute("id").unwrap(), [number("lon"), number("lat")])
             })
             .collect();
-        let ways: Vec<(Vec<[f64; 2]>, BTreeMap<&str, &str>)> = all("way")
+        type Tags<'a> = BTreeMap<&'a str, &'a str>;
+        let ways: Vec<(Vec<[f64; 2]>, Tags<'_>)> = all("way")
             .map(|way| {
                 let children = |name: &'static str| way.children().filter(move |child| child.has_tag_name(name));
                 let corners = children("nd").map(|nd| nodes[nd.attribute("ref").unwrap()]).collect();

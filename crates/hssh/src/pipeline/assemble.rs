@@ -215,7 +215,7 @@ impl Assembly<'_> {
 fn gateway(visit: &Visit, end: Olp) -> Option<[[f64; 2]; 2]> {
     let line = visit.star.gateways.get(end.index())?.as_ref()?.line;
     let seen = |[x, y]: [f64; 2]| visit.frame.between(Pose::new(x, y, 0.0));
-    let ends = line.map(|point| seen(point)).map(|pose| [pose.x, pose.y]);
+    let ends = line.map(seen).map(|pose| [pose.x, pose.y]);
     ends.iter().flatten().all(|number| number.is_finite()).then_some(ends)
 }
 
