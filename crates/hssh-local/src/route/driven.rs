@@ -110,7 +110,7 @@ mod tests {
         assert!(line.iter().all(|point| point[1].abs() < 0.3), "{line:?}");
         // A turn on the spot, as odometry tells it.
         let wobble: Vec<[f64; 2]> = (0..40)
-            .map(|step| f64::from(step))
+            .map(f64::from)
             .map(|step| [4.0 + 0.02 * step.sin(), 0.02 * step.cos()])
             .collect();
         let straight = drive(&[[0.0, 0.0], [4.0, 0.0]]);

@@ -193,7 +193,7 @@ mod tests {
                 0 => later == earlier + 1,
                 1 => later <= earlier + 2,
                 2 => later == earlier + 1 || (later > 80 && earlier == later - 80),
-                _ => (later * 31 + earlier * 17 + seed * 7) % (seed + 3) == 0,
+                _ => (later * 31 + earlier * 17 + seed * 7).is_multiple_of(seed + 3),
             };
             let mut needs = Needs::default();
             for visit in 0..visits {

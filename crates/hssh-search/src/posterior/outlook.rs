@@ -304,9 +304,9 @@ mod tests {
                 for (&threshold, needs) in outlook.thresholds.iter().zip(&outlook.needs) {
                     for explained in (0..=travels).step_by(9) {
                         let mut known: Vec<usize> = (0..=explained).collect();
-                        for visit in explained + 1..=travels {
-                            let is_near =
-                                |&earlier: &usize| prices[visit][earlier].is_some_and(|p| p <= threshold);
+                        for (visit, prices) in prices.iter().enumerate().take(travels + 1).skip(explained + 1)
+                        {
+                            let is_near = |&earlier: &usize| prices[earlier].is_some_and(|p| p <= threshold);
                             if !known.iter().any(is_near) {
                                 known.push(visit);
                             }

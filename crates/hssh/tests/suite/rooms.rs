@@ -86,7 +86,7 @@ fn a_room_entered_is_a_room_of_the_map() {
         assert!(region.explored > 0.85, "{region:?}");
     }
     let doors = building.passages.iter().filter(|passage| passage.kind == "door").count();
-    assert_eq!((doors, building.passages.len()), (DOORS.len(), DOORS.len()));
+    assert_eq!((doors, building.passages.len()), (DOORS.len(), DOORS.len()), "{:?}", building.passages);
     visits_and_places_name_their_regions(&answer);
     let text = answer.to_text(Listing::default());
     assert!(text.contains("The building: 5 rooms, 1 corridor, 5 doors; the robot was in 6"), "{text}");
