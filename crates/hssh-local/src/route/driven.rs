@@ -109,10 +109,8 @@ mod tests {
         let line = driven_line(&detour);
         assert!(line.iter().all(|point| point[1].abs() < 0.3), "{line:?}");
         // A turn on the spot, as odometry tells it.
-        let wobble: Vec<[f64; 2]> = (0..40)
-            .map(f64::from)
-            .map(|step| [4.0 + 0.02 * step.sin(), 0.02 * step.cos()])
-            .collect();
+        let wobble: Vec<[f64; 2]> =
+            (0..40).map(f64::from).map(|step| [4.0 + 0.02 * step.sin(), 0.02 * step.cos()]).collect();
         let straight = drive(&[[0.0, 0.0], [4.0, 0.0]]);
         let on = drive(&[[4.0, 0.0], [8.0, 0.0]]);
         assert!(driven_line(&[straight, wobble, on].concat()).len() <= 4);
