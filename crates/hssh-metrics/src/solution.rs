@@ -1,5 +1,7 @@
 //! What to ask of a solver, what comes back, and what has no solution.
 
+use serde::{Deserialize, Serialize};
+
 use crate::graph::{PoseGraph, PoseId};
 use crate::pose::Pose;
 
@@ -83,7 +85,7 @@ impl Solution {
 }
 
 /// Why a pose graph cannot be solved.
-#[derive(Clone, Copy, PartialEq, Debug, thiserror::Error)]
+#[derive(Clone, Copy, PartialEq, Debug, Serialize, Deserialize, thiserror::Error)]
 pub enum SolveError {
     /// A part of the graph could be anywhere.
     #[error(

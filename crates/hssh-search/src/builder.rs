@@ -5,6 +5,7 @@ use std::sync::Arc;
 use hssh_metrics::SolveError;
 use hssh_topology::{Axioms, AxiomsError, Preference, ReadingModelError};
 
+use crate::checkpoint::{CheckpointError, Checkpoints};
 use crate::constraints::{ConstraintError, VisitConstraints};
 use crate::crew::ThreadsError;
 use crate::limits::{Limits, Monitor};
@@ -67,6 +68,9 @@ pub enum MapperError {
         /// Why they cannot be.
         problem: SolveError,
     },
+    /// There is a checkpoint that the search cannot go on from.
+    #[error(transparent)]
+    Checkpoint(#[from] CheckpointError),
     /// No threads.
     #[error(transparent)]
     Threads(#[from] ThreadsError),
@@ -86,6 +90,7 @@ pub struct MapperBuilder {
     pub(crate) limits: Limits,
     pub(crate) threads: usize,
     pub(crate) monitor: Arc<Monitor>,
+    pub(crate) checkpoints: Option<Checkpoints>,
 }
 
 impl Default for MapperBuilder {
@@ -101,6 +106,7 @@ impl Default for MapperBuilder {
             limits: Limits::default(),
             threads: 1,
             monitor: Arc::default(),
+            checkpoints: None,
         }
     }
 }
@@ -178,6 +184,13 @@ impl MapperBuilder {
     #[must_use]
     pub fn monitor(self, monitor: Arc<Monitor>) -> Self {
         MapperBuilder { monitor, ..self }
+    }
+
+    /// Where the search of a whole exploration keeps its state from time to time. It goes on from the checkpoint that is there, if there
+    /// is one, with the answer of a search that was never interrupted.
+    #[must_use]
+    pub fn checkpoints(self, checkpoints: Checkpoints) -> Self {
+        MapperBuilder { checkpoints: Some(checkpoints), ..self }
     }
 
     /// What is sought, and in which order, in a few words.

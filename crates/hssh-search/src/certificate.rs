@@ -13,6 +13,7 @@ use crate::context::Context;
 use crate::cursor::Cursor;
 use crate::engine::{Engine, log_sum};
 use crate::experience::Experience;
+use crate::fingerprint::fingerprint;
 use crate::leaf::{Appraise, Leaf};
 use crate::order::{Goal, Order};
 use crate::posterior::{ByPosterior, MapPrior, Metrical, PlacePrior};
@@ -238,10 +239,4 @@ fn plain(score: Score) -> String {
         }
         Score::Nats(nats) => format!("{nats:?}"),
     }
-}
-
-/// FNV-1a, 64 bits.
-fn fingerprint(bytes: &[u8]) -> u64 {
-    let step = |hash: u64, &byte: &u8| (hash ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3);
-    bytes.iter().fold(0xcbf2_9ce4_8422_2325, step)
 }

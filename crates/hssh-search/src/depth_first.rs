@@ -51,13 +51,42 @@ pub fn depth_first(
     axioms: &Axioms,
     visitor: &mut impl Visitor,
 ) -> Removals {
+    walk_on(hypothesis, depth, &[], experience, axioms, visitor).removals
+}
+
+/// What came of a walk.
+pub(crate) struct Walk {
+    /// How many successors each axiom removed.
+    pub(crate) removals: Removals,
+    /// Where the visitor broke it: by level, into how many successors it went. Nothing if it came to its end.
+    pub(crate) broken_at: Option<Vec<u32>>,
+}
+
+/// The same from where another walk was broken, whose last node was visited but not gone on from; nothing from there up is visited or
+/// counted once more. A walk from the beginning was broken at the first node.
+pub(crate) fn walk_on(
+    hypothesis: &mut Hypothesis,
+    depth: usize,
+    broken_at: &[u32],
+    experience: &Experience,
+    axioms: &Axioms,
+    visitor: &mut impl Visitor,
+) -> Walk {
     let Experience { catalog, observations, .. } = experience;
     let rules = Rules { catalog, axioms };
     let levels = observations.len().saturating_sub(depth);
     let mut frames: Vec<Frame> = Vec::new();
     frames.resize_with(levels, || Frame { step: Step::default(), next: 0, footprint: None });
+    for (level, (frame, &next)) in frames.iter_mut().zip(broken_at).enumerate() {
+        let observation = observations[depth + level];
+        hypothesis.step(observation, rules, &mut frame.step);
+        frame.step.removals = Removals::default();
+        frame.next = next as usize;
+        let entered = frame.step.derivations[frame.next - 1];
+        frame.footprint = Some(hypothesis.follow(observation, entered, catalog));
+    }
     // The walk is below the first `level` frames.
-    let (mut level, mut is_new, mut ended) = (0, true, false);
+    let (mut level, mut is_new, mut broken) = (broken_at.len(), true, None);
     loop {
         if let Some(frame) = frames.get_mut(level) {
             let observation = observations[depth + level];
@@ -69,12 +98,14 @@ pub fn depth_first(
                     visitor.refuted(depth + level);
                 }
             }
-            if let Some(&derivation) = frame.step.derivations.get(frame.next).filter(|_| !ended) {
+            if let Some(&derivation) = frame.step.derivations.get(frame.next).filter(|_| broken.is_none()) {
                 frame.next += 1;
                 frame.footprint = Some(hypothesis.follow(observation, derivation, catalog));
                 level += 1;
-                ended = visitor.node(depth + level, derivation != Derivation::Predicted).is_break();
-                is_new = !ended;
+                is_new = visitor.node(depth + level, derivation != Derivation::Predicted).is_continue();
+                if !is_new {
+                    broken = Some(frames[..level].iter().map(|frame| frame.next as u32).collect());
+                }
                 continue;
             }
         } else if std::mem::take(&mut is_new) {
@@ -89,5 +120,5 @@ pub fn depth_first(
     }
     let mut removals = Removals::default();
     frames.iter().for_each(|frame| removals += frame.step.removals);
-    removals
+    Walk { removals, broken_at: broken }
 }

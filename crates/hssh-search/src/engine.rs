@@ -1,6 +1,7 @@
 //! One search through one tree, whatever it looks for and in whatever order.
 
 use hssh_metrics::SolveError;
+use serde::{Deserialize, Serialize};
 
 use crate::branch::Branch;
 use crate::context::Context;
@@ -18,16 +19,43 @@ use crate::visit::MeasurementError;
 const MOST_SETTLED: usize = 64;
 
 /// How far the sweeps are.
-#[derive(Clone, Copy, Debug, Default)]
+#[derive(Clone, Copy, Debug, Default, Serialize, Deserialize)]
 pub(crate) struct Sweep {
-    /// Levels before this one have their turn in the next cycle only.
+    /// In the next cycle, levels before this one do not have their turn.
     pub(crate) from: usize,
+    /// The cycle under way; nothing between two.
+    pub(crate) cycle: Option<Cycle>,
     /// Of the reach, beyond the worst of the best maps: nats.
     pub(crate) slack: f64,
     /// Expansions when the best map became the best.
     pub(crate) best_since: u64,
     /// Expansions when the best maps were proved, and the search went on for the rest's probability.
     pub(crate) proved_after: Option<u64>,
+}
+
+/// How far a cycle of the sweeps is.
+#[derive(Clone, Copy, Debug, Serialize, Deserialize)]
+pub(crate) struct Cycle {
+    /// Levels before this one do not have their turn.
+    pub(crate) from: usize,
+    pub(crate) step: usize,
+    /// Whether the levels had their turns in this step.
+    pub(crate) turned: bool,
+    /// Whether there was nothing to do so far.
+    pub(crate) idle: bool,
+}
+
+/// Of breadth-first: a level of appraised hypotheses that is not complete.
+#[derive(Debug)]
+pub(crate) struct GrowingLevel<A: Appraise> {
+    /// How many nodes and maps there were before it, and what was counted.
+    pub(crate) nodes: usize,
+    pub(crate) maps: usize,
+    pub(crate) tally: Tally,
+    /// The level before, which it grows from.
+    pub(crate) leaves: Vec<Leaf<A>>,
+    /// The first of them that has not had its turn.
+    pub(crate) next: usize,
 }
 
 /// A map that explains everything.
@@ -51,6 +79,8 @@ pub(crate) struct Engine<A: Appraise> {
     pub(crate) frontier: Frontier<A>,
     /// Of breadth-first.
     pub(crate) fringe: Fringe,
+    /// Of breadth-first, if hypotheses are appraised and a level is not complete.
+    pub(crate) growing: Option<GrowingLevel<A>>,
     /// Of breadth-first, if there was no time to look through the fringe: a complete level before it.
     pub(crate) shown: Option<Fringe>,
     /// Of cyclic best-first.
@@ -98,6 +128,7 @@ impl<A: Appraise> Engine<A> {
             tally: Tally::new(),
             frontier: Frontier::new(),
             fringe: Fringe::default(),
+            growing: None,
             shown: None,
             sweep: Sweep::default(),
             found: Vec::new(),
@@ -151,6 +182,7 @@ impl<A: Appraise> Engine<A> {
             // What explained everything goes first.
             self.sweep = Sweep { from: before, ..Sweep::default() };
         }
+        self.sweep.cycle = None;
         (self.sweep.slack, self.sweep.proved_after) = (0.0, None);
         self.reach = None;
         let found = self.found.drain(..).map(|found| found.leaf);

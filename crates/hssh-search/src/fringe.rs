@@ -4,6 +4,7 @@ use std::ops::Range;
 use std::time::{Duration, Instant};
 
 use hssh_topology::{Measure, Outcome, Preference, Removals, Step};
+use serde::{Deserialize, Serialize};
 
 use crate::context::Context;
 use crate::limits::StopReason;
@@ -16,23 +17,37 @@ use crate::tree::{Child, NodeId, Tree};
 const PIECE: u32 = 512;
 
 /// Pieces between two looks at the limits.
-const PIECES_AT_ONCE: usize = 256;
+const PIECES_AT_ONCE: usize = 64;
 
 /// How long, and how many pieces at a time, are looked at to say how long a level takes.
 const SAMPLING: Duration = Duration::from_millis(30);
 const PIECES_A_SAMPLE: usize = 8;
 
 /// The deepest complete level of a tree.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 pub(crate) struct Fringe {
     pub(crate) nodes: Range<u32>,
     /// How many travels it explains.
     pub(crate) depth: usize,
+    /// The level after it, if a limit came before that was complete.
+    begun: Option<Begun>,
+}
+
+/// A level that is not complete.
+#[derive(Clone, Copy, Debug, Serialize, Deserialize)]
+struct Begun {
+    /// How many nodes and maps there were before it.
+    nodes: usize,
+    maps: usize,
+    /// The first node of the fringe that has not had its turn.
+    next: u32,
+    refuted: u64,
+    removals: Removals,
 }
 
 impl Default for Fringe {
     fn default() -> Self {
-        Fringe { nodes: 0..1, depth: 0 }
+        Fringe::new(0..1, 0)
     }
 }
 
@@ -44,25 +59,36 @@ struct Piece {
 }
 
 impl Fringe {
-    /// Grows a tree by one level. A limit leaves the tree as it was.
+    /// Those nodes, which explain so many travels.
+    pub(crate) fn new(nodes: Range<u32>, depth: usize) -> Self {
+        Fringe { nodes, depth, begun: None }
+    }
+
+    /// Grows a tree by one level. A limit leaves the level incomplete: the next call goes on with it, unless it is
+    /// [given up](Self::give_up).
     pub(crate) fn grow(
         &mut self,
         tree: &mut Tree,
         context: Context<'_>,
         tally: &mut Tally,
     ) -> Result<(), StopReason> {
-        let (nodes, maps) = (tree.len(), tree.map_count());
-        let mut removed = Removals::default();
-        let mut refuted = 0;
-        let pieces = self.pieces();
-        let mut stop = None;
-        for together in pieces.chunks(PIECES_AT_ONCE) {
-            stop = stop.or_else(|| context.watch.interruption());
-            if stop.is_some() {
-                break;
+        let next = self.nodes.start;
+        let mut begun = self.begun.take().unwrap_or_else(|| Begun {
+            nodes: tree.len(),
+            maps: tree.map_count(),
+            next,
+            refuted: 0,
+            removals: Removals::default(),
+        });
+        while begun.next < self.nodes.end {
+            let stop = context.watch.interruption();
+            if let Some(reason) = stop.or_else(|| context.watch.excess(tree.len() as u64, tree.bytes())) {
+                self.begun = Some(begun);
+                return Err(reason);
             }
+            let together = pieces(begun.next..self.nodes.end, PIECES_AT_ONCE);
             let before: &Tree = tree;
-            let grown = context.crew.map(together, context.experience, |cursor, piece| {
+            let grown = context.crew.map(&together, context.experience, |cursor, piece| {
                 let (mut children, mut step) = (Vec::new(), Step::default());
                 let mut grow = |node| {
                     let keep = |child, _: &_| children.push(child);
@@ -74,30 +100,36 @@ impl Fringe {
             for (piece, grown) in together.iter().zip(grown) {
                 for (node, outcome) in piece.clone().zip(grown.outcomes) {
                     tree.set_outcome(NodeId::new(node), outcome);
-                    refuted += u64::from(outcome == Outcome::Refuted);
+                    begun.refuted += u64::from(outcome == Outcome::Refuted);
                 }
                 context.watch.add_nodes(grown.children.len() as u64);
                 for child in grown.children {
                     tree.push(child);
                 }
-                removed += grown.removals;
+                begun.removals += grown.removals;
+                begun.next = piece.end;
             }
-            stop = context.watch.excess(tree.len() as u64, tree.bytes());
         }
-        if let Some(reason) = stop {
-            self.give_up(tree, nodes, maps);
-            context.crew.recall();
+        if let Some(reason) = context.watch.excess(tree.len() as u64, tree.bytes()) {
+            self.begun = Some(begun);
             return Err(reason);
         }
-        tally.removals += removed;
+        tally.removals += begun.removals;
         tally.expanded += self.nodes.len() as u64;
         if let Some(level) = tally.levels.last_mut() {
-            level.refuted = refuted;
+            level.refuted = begun.refuted;
         }
-        let made = ((tree.len() - nodes) as u64, (tree.map_count() - maps) as u64);
+        let made = ((tree.len() - begun.nodes) as u64, (tree.map_count() - begun.maps) as u64);
         tally.levels.push(LevelCounts { nodes: made.0, maps: made.1, refuted: 0 });
-        self.advance(tree, nodes, context);
+        self.advance(tree, begun.nodes, context);
         Ok(())
+    }
+
+    /// Forgets the level that was begun, if there is one.
+    pub(crate) fn give_up(&mut self, tree: &mut Tree, context: Context<'_>) {
+        if let Some(Begun { nodes, maps, .. }) = self.begun.take() {
+            self.forget(tree, nodes, maps, context);
+        }
     }
 
     /// The level that begins with that node is complete.
@@ -107,12 +139,13 @@ impl Fringe {
         context.watch.explained(self.depth);
     }
 
-    /// Forgets a level that was begun.
-    pub(crate) fn give_up(&self, tree: &mut Tree, nodes: usize, maps: usize) {
+    /// Forgets a level before which there were so many nodes and maps.
+    pub(crate) fn forget(&self, tree: &mut Tree, nodes: usize, maps: usize, context: Context<'_>) {
         for node in self.nodes.clone() {
             tree.set_outcome(NodeId::new(node), Outcome::Open);
         }
         tree.truncate(nodes, maps);
+        context.crew.recall();
     }
 
     /// Counts over the maps of the fringe, and the best of them in order of preference.
@@ -170,7 +203,7 @@ impl Fringe {
         let is_small =
             |(_, nodes): &(usize, Range<u32>)| nodes.len() as f64 * per_node <= within.as_secs_f64();
         let deepest = complete.filter(is_small).last();
-        deepest.map_or_else(Fringe::default, |(depth, nodes)| Fringe { nodes, depth })
+        deepest.map_or_else(Fringe::default, |(depth, nodes)| Fringe::new(nodes, depth))
     }
 
     /// How long it takes to look at a map of this level, by a sample.
@@ -179,7 +212,7 @@ impl Fringe {
         let mut looked_at = 0;
         for together in self.pieces().chunks(PIECES_A_SAMPLE) {
             let (first, last) = (together[0].start, together[together.len() - 1].end);
-            let sample = Fringe { nodes: first..last, depth: self.depth };
+            let sample = Fringe::new(first..last, self.depth);
             sample.survey(tree, context, Preference::default(), 1);
             looked_at += sample.nodes.len();
             if started.elapsed() > SAMPLING {
@@ -190,7 +223,12 @@ impl Fringe {
     }
 
     fn pieces(&self) -> Vec<Range<u32>> {
-        let starts = self.nodes.clone().step_by(PIECE as usize);
-        starts.map(|start| start..self.nodes.end.min(start.saturating_add(PIECE))).collect()
+        pieces(self.nodes.clone(), usize::MAX)
     }
+}
+
+/// Nodes cut into pieces, at most so many.
+fn pieces(nodes: Range<u32>, most: usize) -> Vec<Range<u32>> {
+    let starts = nodes.clone().step_by(PIECE as usize).take(most);
+    starts.map(|start| start..nodes.end.min(start.saturating_add(PIECE))).collect()
 }

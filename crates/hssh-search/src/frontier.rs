@@ -29,6 +29,12 @@ impl<A: Appraise> Level<A> {
     pub(crate) fn peek(&self) -> Option<&Leaf<A>> {
         self.queue.peek().map(|Reverse(leaf)| leaf)
     }
+
+    /// Takes out everything there is, as if nothing had ever come here.
+    pub(crate) fn empty(&mut self) -> Vec<Leaf<A>> {
+        self.arrivals = 0;
+        std::mem::take(&mut self.queue).into_iter().map(|Reverse(leaf)| leaf).collect()
+    }
 }
 
 /// All hypotheses that are not expanded.
@@ -96,9 +102,31 @@ impl<A: Appraise> Frontier<A> {
         leaves
     }
 
+    /// Those that wait for their turn, in no order that means anything.
+    pub(crate) fn queued(&self) -> impl Iterator<Item = &Leaf<A>> {
+        self.levels.iter().flat_map(|level| &level.queue).map(|Reverse(leaf)| leaf)
+    }
+
+    /// Those that were set aside, in the order in which they were.
+    pub(crate) fn parked(&self) -> impl Iterator<Item = &Leaf<A>> {
+        self.parked.iter()
+    }
+
+    /// How many came to each level.
+    pub(crate) fn arrivals(&self) -> impl Iterator<Item = u32> {
+        self.levels.iter().map(|level| level.arrivals)
+    }
+
+    /// Puts everything where it was when so many had come to each level.
+    pub(crate) fn restore(&mut self, queued: Vec<Leaf<A>>, parked: Vec<Leaf<A>>, arrivals: Vec<u32>) {
+        let level = |arrivals| Level { queue: BinaryHeap::new(), arrivals };
+        self.levels = arrivals.into_iter().map(level).collect();
+        queued.into_iter().for_each(|leaf| self.push(leaf));
+        self.parked = parked;
+    }
+
     /// All hypotheses, in no order that means anything.
     pub(crate) fn leaves(&self) -> impl Iterator<Item = &Leaf<A>> {
-        let queued = self.levels.iter().flat_map(|level| &level.queue).map(|Reverse(leaf)| leaf);
-        queued.chain(&self.parked)
+        self.queued().chain(&self.parked)
     }
 }

@@ -1,8 +1,8 @@
 //! When a search stops before its end, and how one looks in on it from outside.
 
 use std::fmt;
-use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
+use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 use std::time::{Duration, Instant};
 
 use serde::{Deserialize, Serialize};
@@ -14,8 +14,8 @@ pub struct Limits {
     pub nodes: Option<u64>,
     /// Time for one call.
     pub time: Option<Duration>,
-    /// Bytes of the tree and of the queue. Successors that wait to be put into the tree, and the
-    /// one map that each thread works on, come on top.
+    /// Bytes that the process takes, if the monitor [knows](Monitor::watch_memory); else those of the tree and of what waits to be
+    /// searched, to which successors that wait to be put into the tree and the one map that each thread works on come on top.
     pub bytes: Option<u64>,
 }
 
@@ -70,7 +70,18 @@ pub struct Monitor {
     stop: AtomicBool,
     nodes: AtomicU64,
     travels: AtomicU64,
+    /// What tells how many bytes the process takes.
+    memory: OnceLock<fn() -> Option<u64>>,
+    /// When it was asked last, and what it said.
+    taken: Mutex<Option<(Instant, u64)>>,
 }
+
+/// How much time is between two looks at the memory of the process: a look costs a few microseconds.
+const MEMORY_LOOK: Duration = Duration::from_millis(5);
+
+/// A search stops when the process takes this part of what it may: the rest is for what waits to be put into the tree, for the answer and
+/// for a checkpoint.
+const FOR_SEARCH: f64 = 0.95;
 
 impl Monitor {
     /// Asks the search to stop soon, keeping what it knows.
@@ -81,6 +92,28 @@ impl Monitor {
     /// Takes back an interruption, so that the search can go on.
     pub fn reset(&self) {
         self.stop.store(false, Ordering::Relaxed);
+    }
+
+    /// The search goes on from a checkpoint with so many nodes.
+    pub(crate) fn goes_on(&self, nodes: u64, travels: usize) {
+        self.nodes.store(nodes, Ordering::Relaxed);
+        self.travels.store(travels as u64, Ordering::Relaxed);
+    }
+
+    /// From now on, limits on bytes are on those that the process takes, which `bytes` tells. That is for programs that do nothing
+    /// else; a search in a larger one has its limit on what itself keeps.
+    pub fn watch_memory(&self, bytes: fn() -> Option<u64>) {
+        let _ = self.memory.set(bytes);
+    }
+
+    /// How many bytes the process takes, if that is known.
+    fn taken(&self) -> Option<u64> {
+        let ask = self.memory.get()?;
+        let mut taken = self.taken.lock().unwrap_or_else(PoisonError::into_inner);
+        if taken.is_none_or(|(asked, _)| asked.elapsed() >= MEMORY_LOOK) {
+            *taken = ask().map(|bytes| (Instant::now(), bytes));
+        }
+        taken.map(|(_, bytes)| bytes)
     }
 
     /// Nodes made so far.
@@ -101,13 +134,15 @@ impl Monitor {
 pub(crate) struct Watch {
     monitor: Arc<Monitor>,
     deadline: Option<Instant>,
+    /// When the search stands still for a moment, whatever the limits: it goes on afterwards.
+    pause: Option<Instant>,
     limits: Limits,
 }
 
 impl Watch {
     pub(crate) fn start(limits: Limits, monitor: &Arc<Monitor>) -> Self {
         let deadline = limits.time.and_then(|time| Instant::now().checked_add(time));
-        Watch { monitor: Arc::clone(monitor), deadline, limits }
+        Watch { monitor: Arc::clone(monitor), deadline, pause: None, limits }
     }
 
     /// Whether to stop now, for a reason other than size.
@@ -115,8 +150,24 @@ impl Watch {
         if self.monitor.stop.load(Ordering::Relaxed) {
             return Some(StopReason::Interrupted);
         }
-        let late = self.deadline.is_some_and(|deadline| Instant::now() >= deadline);
-        late.then_some(StopReason::TimeLimit)
+        let first = self.deadline.into_iter().chain(self.pause).min();
+        first.is_some_and(|first| Instant::now() >= first).then_some(StopReason::TimeLimit)
+    }
+
+    /// The same, but the search stops at that moment as if its time were over, if it is not over before.
+    pub(crate) fn pausing(&self, pause: Option<Instant>) -> Self {
+        Watch { pause, ..self.clone() }
+    }
+
+    /// Whether a search that stopped for that reason stands still for a moment only.
+    pub(crate) fn is_pause(&self, stop: StopReason) -> bool {
+        let comes_first = |pause: Instant| self.deadline.is_none_or(|deadline| pause < deadline);
+        stop == StopReason::TimeLimit && self.pause.is_some_and(comes_first)
+    }
+
+    /// No limits at all.
+    pub(crate) fn without_limits() -> Self {
+        Watch::start(Limits::default(), &Arc::default())
     }
 
     /// How much time there was, if that is limited.
@@ -147,7 +198,12 @@ impl Watch {
         if self.limits.nodes.is_some_and(|most| nodes > most) {
             return Some(StopReason::NodeLimit);
         }
-        self.limits.bytes.is_some_and(|most| bytes > most).then_some(StopReason::MemoryLimit)
+        let most = self.limits.bytes?;
+        let is_too_much = match self.monitor.taken() {
+            Some(taken) => taken as f64 > FOR_SEARCH * most as f64,
+            None => bytes > most,
+        };
+        is_too_much.then_some(StopReason::MemoryLimit)
     }
 
     pub(crate) fn add_nodes(&self, nodes: u64) {

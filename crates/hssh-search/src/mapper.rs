@@ -1,5 +1,6 @@
 //! The on-line mapper: one visit at a time, its maps at any time.
 
+use std::io;
 use std::time::Instant;
 
 use hssh_causal::Exploration;
@@ -9,6 +10,7 @@ use hssh_topology::{Hypothesis, Position, Preference, Star};
 use crate::branch::Branch;
 use crate::builder::{MapperBuilder, MapperError, Objective};
 use crate::certificate;
+use crate::checkpoint::{Identity, Keeping, Pack, Pen, State, Unsealed, write_state};
 use crate::context::Context;
 use crate::crew::Crew;
 use crate::cursor::Cursor;
@@ -73,8 +75,12 @@ impl MapperBuilder {
     pub fn explain(self, exploration: &Exploration) -> Result<Mapper, MapperError> {
         let watch = Watch::for_tree(self.limits, &self.monitor);
         self.constraints.check(exploration.travels().len())?;
+        let checkpoints = self.checkpoints.clone();
+        let identity = || Identity::of(self.strategy(), &self, exploration);
+        let mut keeping = Keeping::new(checkpoints.as_ref(), identity);
         let mut mapper = Mapper::new(self, Experience::from(exploration), &watch)?;
-        mapper.go_on(&watch);
+        mapper.begin(&keeping)?;
+        mapper.go_on(&watch, &mut keeping);
         match mapper.unsolvable() {
             Some((travels, problem)) if mapper.is_empty() => {
                 Err(MapperError::Unsolvable { travels, problem: *problem })
@@ -213,20 +219,43 @@ impl Mapper {
     /// monitor, to go on where it stopped; breadth-first goes on from its last complete level.
     pub fn advance(&mut self) -> StopReason {
         let watch = Watch::for_tree(self.options.limits, &self.options.monitor);
-        self.go_on(&watch)
+        self.go_on(&watch, &mut Keeping::default())
+    }
+
+    /// Puts the search where its checkpoint says that it is, if there is one.
+    fn begin(&mut self, keeping: &Keeping<'_>) -> Result<(), MapperError> {
+        let unlimited = Watch::without_limits();
+        let Mapper { experience, crew, options, search, seconds, .. } = self;
+        let context = Context { experience, axioms: &options.axioms, crew, watch: &unlimited };
+        with_engine!(search, engine => {
+            let read = |unsealed: &mut Unsealed<'_>| {
+                let before: f64 = unsealed.take()?;
+                let state = State::read(unsealed, context.travels())?;
+                Ok((state.nodes(), (before, state)))
+            };
+            if let Some((before, state)) = keeping.begin(read)? {
+                *seconds = before;
+                engine.observe(context)?;
+                state.restore(engine);
+                options.monitor.goes_on(engine.tree.len() as u64, engine.fringe.depth.max(engine.deepest().unwrap_or(0)));
+            }
+        });
+        Ok(())
     }
 
     /// Searches on under limits that have begun.
-    fn go_on(&mut self, watch: &Watch) -> StopReason {
+    fn go_on(&mut self, watch: &Watch, keeping: &mut Keeping<'_>) -> StopReason {
         let started = Instant::now();
         let travels = self.experience.observations.len();
-        let Mapper { experience, crew, options, search, .. } = self;
+        let Mapper { experience, crew, options, search, seconds, .. } = self;
         let context = Context { experience, axioms: &options.axioms, crew, watch };
         let span = tracing::info_span!("search", strategy = options.strategy(), travels);
         let _entered = span.enter();
         self.stop = with_engine!(search, engine => {
             let stop = engine.observe(context).expect("every travel was checked when it was observed");
-            stop.unwrap_or_else(|| engine.advance(context))
+            stop.unwrap_or_else(|| kept(engine, context, keeping, |pen| {
+                pen.put(&(*seconds + started.elapsed().as_secs_f64()))
+            }))
         });
         self.searched = with_engine!(&self.search, engine => engine.travels());
         self.seconds += started.elapsed().as_secs_f64();
@@ -449,6 +478,31 @@ impl Mapper {
             bytes: engine.tree.bytes() + engine.bytes,
         }
     }
+}
+
+/// Searches on, and keeps checkpoints on the way: what `head` writes, and the state of the search.
+fn kept<A: Pack>(
+    engine: &mut Engine<A>,
+    context: Context<'_>,
+    keeping: &mut Keeping<'_>,
+    head: impl Fn(&mut Pen<'_>) -> io::Result<()>,
+) -> StopReason {
+    let limits = engine.limits(context.watch);
+    let stop = loop {
+        let watch = &limits.pausing(keeping.due);
+        let stop = engine.advance(Context { watch, ..context });
+        if !stop.is_complete() {
+            keeping.keep(|pen| {
+                head(pen)?;
+                write_state(engine, pen)
+            });
+        }
+        if !watch.is_pause(stop) {
+            break stop;
+        }
+    };
+    engine.end(stop, context);
+    stop
 }
 
 /// What is known about the answer of a search whose keys are bounds.

@@ -6,6 +6,7 @@
 use hssh_metrics::SolveError;
 use hssh_topology::{Measure, Preference, Rank, Step, TopologicalMap};
 
+use crate::checkpoint::Pack;
 use crate::context::Context;
 use crate::cursor::Cursor;
 use crate::leaf::{Appraise, Grown, Growth, Leaf};
@@ -131,5 +132,21 @@ impl Appraise for ByPreference {
 
     fn bytes(&self, _: &Leaf<Self>) -> u64 {
         size_of::<Leaf<Self>>() as u64
+    }
+}
+
+impl Pack for ByPreference {
+    type Shared<'a> = ();
+    type Read = ();
+    type Packed = u32;
+
+    fn share<'a>(_: impl Iterator<Item = &'a u32>) {}
+
+    fn pack(closed_ends: &u32, (): &()) -> u32 {
+        *closed_ends
+    }
+
+    fn unpack(closed_ends: u32, (): &()) -> Option<u32> {
+        Some(closed_ends)
     }
 }

@@ -4,7 +4,7 @@ use std::fmt;
 
 use hssh_metrics::Pose;
 use hssh_topology::{Axiom, Measure, Preference, Removals, TopologicalMap};
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 use crate::limits::StopReason;
 use crate::posterior::Cost;
@@ -93,7 +93,7 @@ impl RankedMap {
 }
 
 /// The nodes that explain the same number of travels.
-#[derive(Clone, Copy, PartialEq, Eq, Debug, Default, Serialize)]
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Default, Serialize, Deserialize)]
 pub struct LevelCounts {
     /// Nodes.
     pub nodes: u64,
@@ -112,7 +112,7 @@ impl std::ops::AddAssign for LevelCounts {
 }
 
 /// Counts over the maps that explain the whole exploration.
-#[derive(Clone, Copy, PartialEq, Eq, Debug, Default, Serialize)]
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Default, Serialize, Deserialize)]
 pub struct FinalCounts {
     /// All of them.
     pub final_maps: u64,

@@ -1,13 +1,14 @@
 //! What is counted while a tree grows.
 
 use hssh_topology::{Outcome, Removals};
+use serde::{Deserialize, Serialize};
 
 use crate::leaf::{Appraise, Grown, Leaf};
 use crate::report::LevelCounts;
 use crate::tree::Tree;
 
 /// What is counted while a tree grows.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 pub(crate) struct Tally {
     pub(crate) levels: Vec<LevelCounts>,
     pub(crate) removals: Removals,

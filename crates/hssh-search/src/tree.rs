@@ -1,13 +1,14 @@
 //! The tree of hypotheses: each node a small difference to its parent.
 
 use hssh_topology::{Derivation, MapOlp, Outcome, TopologicalMap};
+use serde::{Deserialize, Serialize};
 
 use crate::branch::Branch;
 use crate::experience::Experience;
 
 /// A hypothesis of a [`Tree`]. The number is a handle into this tree; what identifies a hypothesis anywhere is
 /// its [`Branch`].
-#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug, Serialize, Deserialize)]
 pub struct NodeId(u32);
 
 impl NodeId {
@@ -28,7 +29,7 @@ impl NodeId {
 }
 
 /// 16 bytes: a node is its parent, its map, and the gateway by which the robot arrived.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, Serialize, Deserialize)]
 struct Node {
     parent: NodeId,
     map: MapNumber,
@@ -37,7 +38,7 @@ struct Node {
 }
 
 /// A map of the tree; the root's is number 0. Maps form a tree of their own.
-#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug, Serialize, Deserialize)]
 pub(crate) struct MapNumber(u32);
 
 impl MapNumber {
@@ -45,7 +46,7 @@ impl MapNumber {
 }
 
 /// 16 bytes: a map is its parent and the link that was added to it by the travel number `travel`.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, Serialize, Deserialize)]
 pub(crate) struct Growth {
     pub(crate) parent: MapNumber,
     pub(crate) travel: u32,
@@ -83,7 +84,7 @@ pub(crate) struct Child {
 }
 
 /// All hypotheses made so far.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Tree {
     nodes: Vec<Node>,
     outcomes: Vec<Outcome>,
@@ -183,6 +184,31 @@ impl Tree {
     #[must_use]
     pub fn choices(&self, node: NodeId) -> Branch {
         self.branch(node).into_iter().filter_map(|node| self.derivation(node)).collect()
+    }
+
+    /// Whether a tree that was read is one, of so many travels.
+    pub(crate) fn is_sound(&self, travels: usize) -> bool {
+        let Tree { nodes, outcomes, maps } = self;
+        let is_map = |(number, map): (usize, &Growth)| {
+            number == 0 || ((map.parent.0 as usize) < number && (map.travel as usize) < travels)
+        };
+        let is_node = |(number, node): (usize, &Node)| {
+            if number == 0 {
+                return node.depth == 0 && node.map == MapNumber::ROOT;
+            }
+            let Some(parent) = nodes[..number].get(node.parent.index()) else { return false };
+            let Some(map) = maps.get(node.map.0 as usize) else { return false };
+            let is_grown =
+                node.map != MapNumber::ROOT && map.parent == parent.map && map.travel == parent.depth;
+            node.depth == parent.depth + 1
+                && node.depth as usize <= travels
+                && (node.map == parent.map || is_grown)
+        };
+        !nodes.is_empty()
+            && !maps.is_empty()
+            && nodes.len() == outcomes.len()
+            && maps.iter().enumerate().all(is_map)
+            && nodes.iter().enumerate().all(is_node)
     }
 
     pub(crate) fn map(&self, node: NodeId) -> MapNumber {

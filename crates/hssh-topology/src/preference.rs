@@ -80,7 +80,7 @@ pub struct Preference {
 /// The four numbers of a measure, each in a field of bits of its own, the first in the order highest.
 /// A number too large for its field counts as the largest that it holds: 2⁴⁴ − 1 undetermined boundary
 /// relations, 2²⁸ − 1 of anything else.
-#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug, Serialize, Deserialize)]
 pub struct Rank(u128);
 
 /// The width of the fields of a [`Rank`]: undetermined boundary relations have one, all else another.

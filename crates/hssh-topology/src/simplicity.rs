@@ -73,7 +73,7 @@ impl Simplicity {
 }
 
 /// What F does not fall below, by how many travels are to come.
-#[derive(Clone, Copy, PartialEq, Debug)]
+#[derive(Clone, Copy, PartialEq, Debug, Serialize, Deserialize)]
 pub struct SimplicityFloor {
     c2: f64,
     /// What boundary relations and places weigh.

@@ -75,6 +75,10 @@ pub(crate) enum Failure {
     Tree(#[from] TreeError),
     #[error("{0}{help}", help = help(.0))]
     Pipeline(Box<PipelineError>),
+    #[error(
+        "cannot go on from the checkpoint {}: {error}\nhelp: give another file, or remove this one to begin anew", file.display()
+    )]
+    Checkpoint { file: PathBuf, error: hssh_search::CheckpointError },
     #[error("{}: {error}", file.display())]
     Export { file: PathBuf, error: hssh::export::ExportError },
     #[error("there is no odometry to write as a pose graph")]
@@ -119,6 +123,7 @@ fn help(error: &PipelineError) -> &'static str {
             "\nhelp: a higher limit in the options' readings.model allows more errors in one travel"
         }
         PipelineError::NoAccount { .. } => "\nhelp: give the search more time, memory or hypotheses",
+        PipelineError::KeptReadings => "\nhelp: leave out --checkpoint, or --readings",
         PipelineError::ClosedOfAll => "\nhelp: --closed goes with --search posterior, best-first and proof",
         PipelineError::GenusOfPosterior => "\nhelp: --planar and --max-genus bound it in every search",
         _ => "",
@@ -152,6 +157,19 @@ impl From<PipelineError> for Failure {
 }
 
 impl Failure {
+    /// The same, with the file if it is about a checkpoint.
+    pub(crate) fn of_checkpoint(self, file: Option<&Path>) -> Self {
+        match (self, file) {
+            (Failure::Pipeline(error), Some(file)) => match *error {
+                PipelineError::Search(SearchFailure::Checkpoint(error)) => {
+                    Failure::Checkpoint { file: file.to_owned(), error }
+                }
+                error => error.into(),
+            },
+            (failure, _) => failure,
+        }
+    }
+
     /// Says what went wrong on standard error. Nobody reads on where a pipe was closed.
     pub(crate) fn print(&self) {
         let prefix = if self.is_rendered() { "" } else { "error: " };

@@ -164,7 +164,8 @@ fn begun(
     method: SearchMethod,
     monitor: &Arc<Monitor>,
 ) -> Result<Box<Mapper>, PipelineError> {
-    let task = Task { exploration, options, method, likeness: None, monitor, is_online: true };
+    let task =
+        Task { exploration, options, method, likeness: None, monitor, is_online: true, checkpoints: None };
     let start = &exploration.star_types()[exploration.start().index()];
     let mapper = task.mapper_builder()?.start_with(&start.star, &start.bearings);
     Ok(Box::new(mapper.map_err(SearchFailure::from)?))

@@ -46,11 +46,12 @@ pub(crate) fn hear_interruption() {
     MONITOR.reset();
 }
 
-/// Runs `search` with a monitor that signals interrupt. On a terminal, a line on standard error says how far the search
+/// Runs `search` with a monitor that signals interrupt, and that knows what the program takes. On a terminal, a line on standard error says how far the search
 /// is.
 pub(crate) fn watched<T>(travels: usize, search: impl FnOnce(&Arc<Monitor>) -> T) -> T {
     keep_on_signals();
     let monitor = Arc::clone(&MONITOR);
+    monitor.watch_memory(|| memory_stats::memory_stats().map(|stats| stats.physical_mem as u64));
     let done = AtomicBool::new(false);
     std::thread::scope(|scope| {
         let line = scope.spawn(|| show(&monitor, travels, &done));

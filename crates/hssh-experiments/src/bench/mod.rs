@@ -4,7 +4,9 @@ mod certificates;
 mod closures;
 mod faces;
 mod graphs;
+mod kills;
 mod long;
+mod memory;
 mod online;
 mod proof;
 pub(crate) mod speed;
@@ -30,6 +32,8 @@ pub(crate) fn run(flags: &flags::Bench) -> Result<(), Box<dyn Error>> {
         Some("closures") => closures::run(runs),
         Some("wrong-closures") => wrong_closures::run(),
         Some("certificates") => certificates::run(),
+        Some("kills") => kills::run(),
+        Some("memory") => memory::run(),
         Some("long") => long::run(limit),
         Some("online") => online::run(flags.data.as_deref().or(data.as_deref())),
         None => {
@@ -38,7 +42,7 @@ pub(crate) fn run(flags: &flags::Bench) -> Result<(), Box<dyn Error>> {
             proof::run(limit)
         }
         Some(other) => {
-            let names = "speed, faces, proof, graphs, closures, wrong-closures, online, certificates, long";
+            let names = "speed, faces, proof, graphs, closures, wrong-closures, online, certificates, long, kills, memory";
             Err(format!("there is no benchmark `{other}`; there are: {names}").into())
         }
     }
@@ -47,6 +51,15 @@ pub(crate) fn run(flags: &flags::Bench) -> Result<(), Box<dyn Error>> {
 /// `cargo xtask measure`: what a benchmark starts as a process of its own.
 pub(crate) fn measure(flags: &flags::Measure) -> Result<(), Box<dyn Error>> {
     if flags.name.starts_with("long/") { long::measure(flags) } else { speed::measure(flags) }
+}
+
+/// The program `hssh`, which stands beside this one.
+fn program() -> Result<PathBuf, Box<dyn Error>> {
+    let program = std::env::current_exe()?.with_file_name("hssh");
+    match program.is_file() {
+        true => Ok(program),
+        false => Err(format!("there is no {}: run `cargo build --release` first", program.display()).into()),
+    }
 }
 
 /// The middle value, the lower one of two; 0 of nothing.

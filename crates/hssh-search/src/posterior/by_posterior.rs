@@ -5,6 +5,7 @@ use std::sync::Arc;
 
 use hssh_metrics::{Marginals, Pose, PoseGraph, SolveError};
 use hssh_topology::{Derivation, Position, SimplicityFloor, Step};
+use serde::{Deserialize, Serialize};
 
 use crate::context::Context;
 use crate::cursor::Cursor;
@@ -34,7 +35,7 @@ pub(crate) const NEGLIGIBLE: f64 = 0.1;
 pub(crate) const TIE: f64 = 1e-6;
 
 /// A cost that orders.
-#[derive(Clone, Copy, PartialEq, Debug)]
+#[derive(Clone, Copy, PartialEq, Debug, Serialize, Deserialize)]
 pub(crate) struct Nats(pub(crate) f64);
 
 impl Eq for Nats {}
@@ -72,17 +73,17 @@ pub(crate) struct Burden {
     /// What it costs; while it is strained, at least.
     pub(crate) cost: Cost,
     /// What F of all maps that may come of it is at least.
-    floor: Option<SimplicityFloor>,
+    pub(super) floor: Option<SimplicityFloor>,
     /// What every map that comes of it costs at least.
     pub(crate) bound: Nats,
     /// ln of how many maps can come of it at most.
-    log_branches: f64,
-    placing: Placing,
+    pub(super) log_branches: f64,
+    pub(super) placing: Placing,
 }
 
 /// How a hypothesis is laid out. Nothing is solved before its turn.
 #[derive(Clone, Debug)]
-enum Placing {
+pub(super) enum Placing {
     /// Solved.
     Done(Arc<Layout>),
     /// As its parent, with one place more where the travel leads.

@@ -1,11 +1,11 @@
 //! What a hypothesis pays: minus the logarithm of its posterior probability, item by item.
 
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 /// The cost of a hypothesis in nats, item by item. A map with the cost c has the posterior probability e⁻ᶜ, up
 /// to a factor that all maps share. No item ever falls along a branch, except that a price of new places
 /// may be negative if odometry is very poor, or corridors are very short.
-#[derive(Clone, Copy, PartialEq, Debug, Default, Serialize)]
+#[derive(Clone, Copy, PartialEq, Debug, Default, Serialize, Deserialize)]
 pub struct Cost {
     /// χ²/2 of the best layout: what its bending costs.
     pub bend: f64,

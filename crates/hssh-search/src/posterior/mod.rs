@@ -8,6 +8,7 @@ mod layout;
 mod model;
 mod needs;
 mod outlook;
+mod packed;
 mod poses;
 mod runs;
 mod tariff;

@@ -6,7 +6,7 @@ use std::sync::Arc;
 use hssh_metrics::Pose;
 
 /// How many poses are shared at once.
-const SHARED: usize = 128;
+pub(super) const SHARED: usize = 128;
 
 /// Poses in order. A copy shares all of them but the last few, so that layouts that grow pose by pose do not take the square of their
 /// length.
@@ -23,6 +23,21 @@ impl Poses {
         if self.last.len() == SHARED {
             self.shared.push(Arc::from(std::mem::take(&mut self.last)));
         }
+    }
+
+    /// Those that copies share, [`SHARED`] at a time, before the last few. `None` if the last are too many.
+    pub(super) fn of(shared: Vec<Arc<[Pose]>>, last: Vec<Pose>) -> Option<Self> {
+        (last.len() < SHARED).then_some(Poses { shared, last })
+    }
+
+    /// Those that copies share, [`SHARED`] at a time.
+    pub(super) fn shared(&self) -> &[Arc<[Pose]>] {
+        &self.shared
+    }
+
+    /// The rest.
+    pub(super) fn last(&self) -> &[Pose] {
+        &self.last
     }
 
     /// How many there are.

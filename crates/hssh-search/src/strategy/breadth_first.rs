@@ -3,9 +3,9 @@
 use std::time::Duration;
 
 use crate::context::Context;
-use crate::engine::Engine;
+use crate::engine::{Engine, GrowingLevel};
 use crate::leaf::{Appraise, Growth, Leaf};
-use crate::limits::StopReason;
+use crate::limits::{StopReason, Watch};
 
 /// Hypotheses between two looks at the limits.
 const LOOK: usize = 256;
@@ -15,20 +15,14 @@ const FOR_LOOKING: u32 = 4;
 /// …and so much time is after an interruption.
 const PATIENCE: Duration = Duration::from_millis(300);
 
-impl<A: Appraise> Engine<A> {
-    /// Grows the tree level by level to the last travel.
-    pub(crate) fn breadth_first(&mut self, context: Context<'_>) -> StopReason {
-        let reserve = context.watch.time().map_or(PATIENCE, |time| time / FOR_LOOKING);
-        let watch = context.watch.sooner(reserve);
-        let stop = self.grow_levels(Context { watch: &watch, ..context });
-        let is_pressed = matches!(stop, StopReason::TimeLimit | StopReason::Interrupted) && !A::WEIGHS;
-        let patience = if stop == StopReason::Interrupted { PATIENCE } else { reserve };
-        self.shown =
-            is_pressed.then(|| self.fringe.showable(&self.tree, context, &self.tally.levels, patience));
-        stop
-    }
+/// How much of the time of a search is for looking through what was found.
+pub(crate) fn time_for_looking(watch: &Watch) -> Duration {
+    watch.time().map_or(PATIENCE, |time| time / FOR_LOOKING)
+}
 
-    fn grow_levels(&mut self, context: Context<'_>) -> StopReason {
+impl<A: Appraise> Engine<A> {
+    /// Grows the tree level by level to the last travel. A limit leaves a level incomplete, with which the next call goes on.
+    pub(crate) fn breadth_first(&mut self, context: Context<'_>) -> StopReason {
         while self.fringe.depth < context.travels() {
             let grown = if A::WEIGHS {
                 self.grow_appraised(context)
@@ -46,21 +40,34 @@ impl<A: Appraise> Engine<A> {
         StopReason::Exhausted
     }
 
-    /// Grows the tree by one level whose hypotheses are all appraised. A limit leaves the tree as it was.
+    /// The end of a search, for now: gives up a level that is not complete, and chooses one that there is time to look through.
+    pub(crate) fn show_level(&mut self, stop: StopReason, context: Context<'_>) {
+        self.fringe.give_up(&mut self.tree, context);
+        self.give_up_appraised(context);
+        let is_pressed = matches!(stop, StopReason::TimeLimit | StopReason::Interrupted) && !A::WEIGHS;
+        let patience =
+            if stop == StopReason::Interrupted { PATIENCE } else { time_for_looking(context.watch) };
+        self.shown =
+            is_pressed.then(|| self.fringe.showable(&self.tree, context, &self.tally.levels, patience));
+    }
+
+    /// Grows the tree by one level whose hypotheses are all appraised.
     fn grow_appraised(&mut self, context: Context<'_>) -> Result<(), StopReason> {
-        let (nodes, maps) = (self.tree.len(), self.tree.map_count());
         let depth = self.fringe.depth;
-        let tally = self.tally.clone();
-        let mut leaves: Vec<Leaf<A>> = std::iter::from_fn(|| self.frontier.levels[depth].pop()).collect();
-        leaves.sort_unstable_by_key(|leaf| leaf.node);
-        let mut stop = None;
-        let mut level = Vec::new();
-        for together in leaves.chunks(LOOK) {
-            stop = stop.or_else(|| self.stop(context));
-            if stop.is_some() {
-                break;
+        let mut growing = self.growing.take().unwrap_or_else(|| {
+            let mut leaves: Vec<Leaf<A>> = std::iter::from_fn(|| self.frontier.levels[depth].pop()).collect();
+            leaves.sort_unstable_by_key(|leaf| leaf.node);
+            let (nodes, maps, tally) = (self.tree.len(), self.tree.map_count(), self.tally.clone());
+            GrowingLevel { nodes, maps, tally, leaves, next: 0 }
+        });
+        while growing.next < growing.leaves.len() {
+            if let Some(reason) = self.stop(context) {
+                self.growing = Some(growing);
+                return Err(reason);
             }
             let (appraiser, tree) = (&self.appraiser, &self.tree);
+            let together = &growing.leaves[growing.next..];
+            let together = &together[..together.len().min(LOOK)];
             let grown = context.crew.map(together, context.experience, |cursor, leaf| -> Growth<A> {
                 let mut leaf = leaf.clone();
                 appraiser.settle(&mut leaf, cursor, tree, context)?;
@@ -68,21 +75,24 @@ impl<A: Appraise> Engine<A> {
             });
             for (leaf, grown) in together.iter().zip(grown) {
                 self.solved += u64::from(!self.appraiser.is_settled(leaf));
-                level.extend(self.plant(leaf, grown, context));
+                self.plant(leaf, grown, context).into_iter().for_each(|leaf| self.push(leaf));
             }
+            growing.next += together.len();
         }
-        if let Some(reason) = stop {
-            self.fringe.give_up(&mut self.tree, nodes, maps);
-            self.tally = tally;
-            context.crew.recall();
-            leaves.into_iter().for_each(|leaf| self.frontier.push(leaf));
-            return Err(reason);
-        }
-        self.bytes -= leaves.iter().map(|leaf| self.appraiser.bytes(leaf)).sum::<u64>();
-        level.into_iter().for_each(|leaf| self.push(leaf));
+        self.bytes -= growing.leaves.iter().map(|leaf| self.appraiser.bytes(leaf)).sum::<u64>();
         self.tally.make_level(depth + 1);
-        self.fringe.advance(&self.tree, nodes, context);
+        self.fringe.advance(&self.tree, growing.nodes, context);
         Ok(())
+    }
+
+    /// Forgets the level that is being grown, if there is one.
+    fn give_up_appraised(&mut self, context: Context<'_>) {
+        let Some(GrowingLevel { nodes, maps, tally, leaves, .. }) = self.growing.take() else { return };
+        let given_up = self.frontier.levels[self.fringe.depth + 1].empty();
+        self.bytes -= given_up.iter().map(|leaf| self.appraiser.bytes(leaf)).sum::<u64>();
+        self.fringe.forget(&mut self.tree, nodes, maps, context);
+        self.tally = tally;
+        leaves.into_iter().for_each(|leaf| self.frontier.push(leaf));
     }
 
     /// All hypotheses of the complete fringe are maps that were found.

@@ -10,7 +10,7 @@ use hssh_metrics::SolveError;
 
 use crate::context::Context;
 use crate::cursor::Cursor;
-use crate::engine::Engine;
+use crate::engine::{Cycle, Engine};
 use crate::frontier::Level;
 use crate::leaf::{Appraise, Growth, Leaf, matters};
 use crate::limits::StopReason;
@@ -96,22 +96,30 @@ impl<A: Appraise> Engine<A> {
             return reason;
         }
         loop {
-            let mut idle = true;
-            let from = std::mem::take(&mut self.sweep.from);
-            for step in 0..apart {
-                let turns = (step..travels).step_by(apart).filter(|&level| level >= from);
-                idle &= !self.take_turns(turns.collect(), context);
-                if step == travels % apart {
-                    idle &= !self.take_whole(context);
+            let begin = || Cycle { from: self.sweep.from, step: 0, turned: false, idle: true };
+            let mut cycle = self.sweep.cycle.unwrap_or_else(begin);
+            self.sweep.from = 0;
+            while cycle.step < apart {
+                if !cycle.turned {
+                    let turns = (cycle.step..travels).step_by(apart).filter(|&level| level >= cycle.from);
+                    cycle.idle &= !self.take_turns(turns.collect(), context);
+                    cycle.turned = true;
+                }
+                if cycle.step == travels % apart {
+                    cycle.idle &= !self.take_whole(context);
                 }
                 if let Some(reason) = self.stop(context).or_else(|| self.is_out_of_patience()) {
+                    self.sweep.cycle = Some(cycle);
                     return reason;
                 }
                 if self.is_rest_too_dear() {
+                    self.sweep.cycle = Some(cycle);
                     return self.proved();
                 }
+                (cycle.step, cycle.turned) = (cycle.step + 1, false);
             }
-            if idle && from == 0 && !self.widen() {
+            self.sweep.cycle = None;
+            if cycle.idle && cycle.from == 0 && !self.widen() {
                 return self.proved();
             }
         }

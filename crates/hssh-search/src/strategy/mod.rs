@@ -8,7 +8,7 @@ mod proof;
 use crate::context::Context;
 use crate::engine::Engine;
 use crate::leaf::Appraise;
-use crate::limits::StopReason;
+use crate::limits::{StopReason, Watch};
 use crate::order::Order;
 
 impl<A: Appraise> Engine<A> {
@@ -19,6 +19,21 @@ impl<A: Appraise> Engine<A> {
             Order::BestFirst => self.best_first(context),
             Order::Cyclic => self.cyclic(context),
             Order::Proof => self.least_bound_first(context),
+        }
+    }
+
+    /// The limits of the search for maps, which leave time to look through them.
+    pub(crate) fn limits(&self, watch: &Watch) -> Watch {
+        match self.order {
+            Order::BreadthFirst => watch.sooner(breadth_first::time_for_looking(watch)),
+            _ => watch.clone(),
+        }
+    }
+
+    /// The end of a search, for now.
+    pub(crate) fn end(&mut self, stop: StopReason, context: Context<'_>) {
+        if self.order == Order::BreadthFirst {
+            self.show_level(stop, context);
         }
     }
 }

@@ -6,6 +6,7 @@
 mod agreement;
 mod cases;
 mod certificates;
+mod checkpoints;
 mod constraints;
 mod distinction;
 mod found;

@@ -69,6 +69,13 @@ pub(crate) struct MapArguments {
     pub(crate) file: PathBuf,
     #[command(flatten)]
     pub(crate) search: SearchArguments,
+    /// Keep the state of the search in this file from time to time, and when it is stopped; if the file is there, go on from it. The
+    /// file is removed when the search has come to its end.
+    #[arg(long, value_name = "FILE", help_heading = "Limits")]
+    pub(crate) checkpoint: Option<PathBuf>,
+    /// With --checkpoint: so much time is between two, at least.
+    #[arg(long, value_name = "SECONDS", value_parser = positive, default_value_t = 60.0, requires = "checkpoint", help_heading = "Limits")]
+    pub(crate) checkpoint_every: f64,
     /// How many maps to list [default: 10].
     #[arg(long, value_name = "N")]
     pub(crate) top: Option<usize>,

@@ -49,8 +49,8 @@ pub(crate) struct SearchArguments {
     /// Stop after that many seconds.
     #[arg(long, value_name = "SECONDS", value_parser = seconds, help_heading = "Limits")]
     pub(crate) max_time: Option<f64>,
-    /// Stop when the tree takes that many MiB; the program takes somewhat more [default: 4096].
-    #[arg(long, value_name = "MIB", help_heading = "Limits")]
+    /// Stop before the program takes more memory than that: MiB, or with a unit, as in 500M or 2G [default: 4096].
+    #[arg(long, value_name = "SIZE", value_parser = mebibytes, help_heading = "Limits")]
     pub(crate) max_memory: Option<u64>,
     /// Explain only the first N travels.
     #[arg(long, value_name = "N", help_heading = "Limits")]
@@ -188,6 +188,19 @@ fn seconds(text: &str) -> Result<f64, String> {
     let seconds: f64 = text.parse().map_err(|_| "write a number of seconds, like 10 or 0.5".to_owned())?;
     let is_time = Duration::try_from_secs_f64(seconds).is_ok();
     is_time.then_some(seconds).ok_or_else(|| "the time must be positive and finite".to_owned())
+}
+
+/// A number of MiB, or one with a unit: M or G, MiB or GiB.
+fn mebibytes(text: &str) -> Result<u64, String> {
+    let help = || "write a whole number of MiB, or one with a unit, like 500M or 2G".to_owned();
+    let number = text.trim_end_matches(|letter: char| letter.is_ascii_alphabetic());
+    let factor = match text[number.len()..].to_ascii_lowercase().as_str() {
+        "" | "m" | "mib" => 1,
+        "g" | "gib" => 1024,
+        _ => return Err(help()),
+    };
+    let number: u64 = number.parse().map_err(|_| help())?;
+    number.checked_mul(factor).ok_or_else(help)
 }
 
 fn visits(text: &str) -> Result<[usize; 2], String> {

@@ -17,7 +17,7 @@ pub(crate) fn run(arguments: &ExplainArguments) -> Result<Status, Failure> {
         return Err(Failure::Usage(help.to_owned()));
     }
     let input = read_input(&arguments.file, &options, &arguments.laser.topics)?;
-    let mapped = searched(&input, &options)?;
+    let mapped = searched(&input, &options, None)?;
     let answer = &mapped.answer;
     if answer.maps.is_empty() {
         print(&if arguments.json { answer.to_json() } else { answer.verdict.sentence.clone() + "\n" })?;

@@ -21,6 +21,10 @@ const LOOK: Duration = Duration::from_millis(50);
 
 pub(crate) fn run(arguments: &LiveArguments) -> Result<Status, Failure> {
     let file = &arguments.map.file;
+    if arguments.map.checkpoint.is_some() {
+        let help = "--checkpoint is of a search that begins with everything: leave it out where the robot still drives";
+        return Err(Failure::Usage(help.to_owned()));
+    }
     let options = map::checked_options(&arguments.map)?;
     let hub = Arc::new(Hub::default());
     let server = PageServer::start(arguments.port, html(&file.display().to_string()), &hub)

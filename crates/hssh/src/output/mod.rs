@@ -1,5 +1,6 @@
 //! Printing, and writing files.
 
+mod checkpoint;
 mod place;
 mod replace;
 mod robot;
@@ -12,6 +13,7 @@ use serde::Serialize;
 use crate::failure::Failure;
 use crate::terminal::{harmless, say};
 
+pub(crate) use checkpoint::CheckpointFile;
 pub(crate) use place::{check_folder, check_outputs, refuse_input};
 pub(crate) use robot::{grid_image, to_tum, write_grid, write_tum};
 
@@ -40,7 +42,8 @@ pub(crate) fn write_file(file: &Path, text: &str) -> Result<(), Failure> {
 
 /// Writes a file as a whole, or not at all: what was there stays until what comes is complete.
 pub(crate) fn write_bytes(file: &Path, bytes: &[u8]) -> Result<(), Failure> {
-    replace::replace(file, bytes).map_err(|error| Failure::Write { file: file.to_owned(), error })?;
+    replace::replace(file, |out| out.write_all(bytes))
+        .map_err(|error| Failure::Write { file: file.to_owned(), error })?;
     say_written(file);
     Ok(())
 }

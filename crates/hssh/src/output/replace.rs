@@ -6,16 +6,19 @@ use std::path::{Path, PathBuf};
 
 /// Writes all of a file beside it and renames it. What is no file (a terminal, a pipe) is written to directly, and so is
 /// a file in a folder where nothing new may be made.
-pub(super) fn replace(file: &Path, bytes: &[u8]) -> io::Result<()> {
+pub(super) fn replace(
+    file: &Path,
+    mut write: impl FnMut(&mut dyn Write) -> io::Result<()>,
+) -> io::Result<()> {
     // Behind a link, the file that it leads to is replaced, and not the link.
     let file = fs::canonicalize(file).unwrap_or_else(|_| file.to_owned());
     let known = fs::metadata(&file).ok();
     if known.as_ref().is_some_and(|known| !known.is_file()) {
-        return fs::write(&file, bytes);
+        return write(&mut File::create(&file)?);
     }
     let beside = beside(&file);
-    let Ok(new) = File::create_new(&beside) else { return fs::write(&file, bytes) };
-    let written = fill(new, bytes).and_then(|()| {
+    let Ok(mut new) = File::create_new(&beside) else { return write(&mut File::create(&file)?) };
+    let written = write(&mut new).and_then(|()| new.sync_all()).and_then(|()| {
         if let Some(known) = known {
             fs::set_permissions(&beside, known.permissions())?;
         }
@@ -25,11 +28,6 @@ pub(super) fn replace(file: &Path, bytes: &[u8]) -> io::Result<()> {
         let _ = fs::remove_file(&beside);
     }
     written
-}
-
-fn fill(mut new: File, bytes: &[u8]) -> io::Result<()> {
-    new.write_all(bytes)?;
-    new.sync_all()
 }
 
 /// A name in the same folder that nothing else has.

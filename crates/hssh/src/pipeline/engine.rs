@@ -21,7 +21,7 @@ use crate::answer::{
     Worth,
 };
 
-pub use hssh_search::Monitor;
+pub use hssh_search::{Checkpoints, Keeper, Monitor, Source};
 
 /// How much more alike pairs of visits look than places at random.
 pub(crate) type Likeness = Appearance;
@@ -36,6 +36,8 @@ pub(crate) struct Task<'a> {
     pub(crate) monitor: &'a Arc<Monitor>,
     /// Whether more travels are to come.
     pub(crate) is_online: bool,
+    /// Where its state is kept from time to time; nothing if it is not.
+    pub(crate) checkpoints: Option<&'a Checkpoints>,
 }
 
 /// A search that has come to its end.
@@ -116,7 +118,9 @@ impl Task<'_> {
             Some(GenusOrder::First) => GenusRank::First,
             Some(GenusOrder::Last) => GenusRank::Last,
         };
-        Mapper::builder()
+        let builder =
+            self.checkpoints.cloned().into_iter().fold(Mapper::builder(), MapperBuilder::checkpoints);
+        builder
             .axioms(self.options.axioms)
             .preference(Preference { genus })
             .limits(self.limits())

@@ -3,7 +3,7 @@
 use hssh_causal::ExplorationError;
 use hssh_local::{LatticeError, LogError, SurveyError};
 use hssh_metrics::PriorError;
-use hssh_search::{MapperError, PlacementError, ThreadsError};
+use hssh_search::{CheckpointError, MapperError, PlacementError, ThreadsError};
 use hssh_topology::AxiomsError;
 use hssh_topology::ReadingModelError;
 
@@ -70,6 +70,9 @@ pub enum PipelineError {
         "readings are for explorations: visits along a laser log show one star at one place by the survey, and ways are the robot's own"
     )]
     ReadingsOfLog,
+    /// The search for accounts of errors keeps no checkpoints.
+    #[error("a search that reckons with errors of perception keeps no checkpoints")]
+    KeptReadings,
     /// An account that makes no exploration.
     #[error(
         "the account makes no exploration: {0}\nhelp: this is a bug in hssh; please report it with the exploration"
@@ -104,8 +107,20 @@ pub enum SearchFailure {
     Threads(#[from] ThreadsError),
     /// Measurements that cannot be weighed, or are not there.
     #[error("cannot weigh the maps: {0}")]
-    Mapper(#[from] MapperError),
+    Mapper(MapperError),
+    /// There is a checkpoint that the search cannot go on from.
+    #[error("cannot go on from the checkpoint: {0}")]
+    Checkpoint(CheckpointError),
     /// A map that cannot be placed by its odometry.
     #[error("cannot place the map by its odometry: {0}")]
     Placement(#[from] PlacementError),
+}
+
+impl From<MapperError> for SearchFailure {
+    fn from(error: MapperError) -> Self {
+        match error {
+            MapperError::Checkpoint(error) => SearchFailure::Checkpoint(error),
+            error => SearchFailure::Mapper(error),
+        }
+    }
 }

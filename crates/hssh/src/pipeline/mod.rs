@@ -14,7 +14,7 @@ mod reading;
 mod scans;
 mod tracked;
 
-pub use engine::Monitor;
+pub use engine::{Checkpoints, Keeper, Monitor, Source};
 pub use error::{PipelineError, SearchFailure};
 pub use input::{Input, SurveyedLog};
 pub use laser::LaserChoice;
@@ -79,6 +79,19 @@ impl PlacedMap {
 /// If options make no sense or contradict one another, measurements that the search needs are missing or useless, or the operating system
 /// gives no threads.
 pub fn map(input: &Input, options: &MappingOptions, monitor: &Arc<Monitor>) -> Result<Mapped, PipelineError> {
+    map_kept(input, options, monitor, None)
+}
+
+/// The same with a search that keeps its state from time to time, and goes on from what was kept.
+///
+/// # Errors
+/// As [`map`], and if what was kept is of another search or damaged, or if errors of perception are reckoned with.
+pub fn map_kept(
+    input: &Input,
+    options: &MappingOptions,
+    monitor: &Arc<Monitor>,
+    checkpoints: Option<&Checkpoints>,
+) -> Result<Mapped, PipelineError> {
     options.check()?;
     let mut options = options.clone();
     let considered = options.limits.travels.unwrap_or(usize::MAX).min(input.exploration.travels().len());
@@ -96,6 +109,7 @@ pub fn map(input: &Input, options: &MappingOptions, monitor: &Arc<Monitor>) -> R
     let read = match options.readings.model {
         None => None,
         Some(_) if input.surveyed.is_some() => return Err(PipelineError::ReadingsOfLog),
+        Some(_) if checkpoints.is_some() => return Err(PipelineError::KeptReadings),
         Some(_) if exploration.travels().iter().any(|travel| travel.odometry.is_none()) => {
             return Err(PipelineError::UnmeasuredReadings);
         }
@@ -113,9 +127,10 @@ pub fn map(input: &Input, options: &MappingOptions, monitor: &Arc<Monitor>) -> R
         return Ok(mapped);
     }
     let likeness = input.surveyed.as_ref().map(|surveyed| surveyed.likeness(options.posterior.likeness));
+    let exploration = &exploration;
     let task =
-        Task { exploration: &exploration, options: &options, method, likeness, monitor, is_online: false };
-    Ok(answered(input, &exploration, &options, task.search()?, warnings))
+        Task { exploration, options: &options, method, likeness, monitor, is_online: false, checkpoints };
+    Ok(answered(input, exploration, &options, task.search()?, warnings))
 }
 
 /// The answer that a search gives, of an input of which the travels of `exploration` were to be explained.
@@ -372,8 +387,9 @@ impl Mapped {
         let method = options.method_for(&exploration)?;
         let surveyed = input.surveyed.as_ref();
         let likeness = surveyed.map(|surveyed| surveyed.likeness(options.posterior.likeness));
-        let task =
-            Task { exploration: &exploration, options: &options, method, likeness, monitor, is_online: true };
+        let (exploration, options) = (&exploration, &options);
+        let (is_online, checkpoints) = (true, None);
+        let task = Task { exploration, options, method, likeness, monitor, is_online, checkpoints };
         let mut history = task.history(most_nodes)?;
         // As in the answer, what the places of a log rest on is a factor.
         let evidence = surveyed.map_or(1.0, |surveyed| surveyed.evidence().probability);

@@ -210,7 +210,8 @@ pub struct SearchLimits {
     pub nodes: Option<u64>,
     /// Seconds of searching.
     pub seconds: Option<f64>,
-    /// MiB of the tree and of what waits to be searched; the program takes somewhat more.
+    /// MiB of the whole process, if the [monitor](super::Monitor::watch_memory) knows, as that of the program does; else of the tree and of
+    /// what waits to be searched.
     pub mebibytes: u64,
 }
 

@@ -2,6 +2,7 @@
 #![allow(clippy::unwrap_used, reason = "in tests a failed unwrap is the failed assertion")]
 
 mod causal;
+mod checkpoints;
 mod common;
 mod export;
 mod faults;

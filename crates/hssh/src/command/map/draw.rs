@@ -24,10 +24,13 @@ pub(super) fn is_asked(arguments: &MapArguments) -> bool {
 
 /// Refuses outputs that cannot be written, before anything is searched.
 pub(super) fn check(arguments: &MapArguments) -> Result<(), Failure> {
-    let MapArguments { svg, dot, tree, g2o, grid, trajectory, certificate, corrected, page, .. } = arguments;
+    let MapArguments {
+        svg, dot, tree, g2o, grid, trajectory, certificate, corrected, page, checkpoint, ..
+    } = arguments;
     let grid_image = grid_image(grid.as_deref());
-    let outputs = [svg, dot, tree, g2o, grid, trajectory, certificate, corrected, &grid_image, &page.html]
-        .map(Option::as_ref);
+    let outputs =
+        [svg, dot, tree, g2o, grid, trajectory, certificate, corrected, &grid_image, &page.html, checkpoint]
+            .map(Option::as_ref);
     refuse_unfit(&arguments.files, true)?;
     let exported = arguments.files.export.iter().map(|(_, file)| Some(file));
     check_outputs(&[&arguments.file], outputs.into_iter().chain(exported))?;

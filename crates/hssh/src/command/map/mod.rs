@@ -2,8 +2,11 @@
 
 mod draw;
 
+use std::sync::Arc;
+use std::time::Duration;
+
 use hssh::answer::Listing;
-use hssh::pipeline::{Input, Mapped, MappingOptions, SearchMethod, SurveyedLog, map};
+use hssh::pipeline::{Checkpoints, Input, Mapped, MappingOptions, SearchMethod, SurveyedLog, map_kept};
 
 use crate::arguments::MapArguments;
 use crate::command::export::write_maps;
@@ -11,7 +14,7 @@ use crate::command::page;
 use crate::command::stages::draw_survey;
 use crate::failure::{Failure, Status};
 use crate::input::{read_input, refuse_partial, warn};
-use crate::output::{Written, print, write_file};
+use crate::output::{CheckpointFile, Written, print, write_file};
 use crate::progress::watched;
 
 pub(crate) fn run(arguments: &MapArguments) -> Result<Status, Failure> {
@@ -53,7 +56,9 @@ pub(crate) fn answer(
         (Some(surveyed), Some(folder)) => draw_survey(&surveyed.log, &surveyed.survey, folder)?,
         (Some(_), None) => {}
     }
-    let mut mapped = searched(input, options)?;
+    let file = arguments.checkpoint.as_deref().map(|file| Arc::new(CheckpointFile::new(file)));
+    let mapped = searched(input, options, kept(arguments, file.clone()).as_ref());
+    let mut mapped = mapped.map_err(|failure| failure.of_checkpoint(arguments.checkpoint.as_deref()))?;
     if arguments.with_trajectory {
         mapped.carry_trajectories(input);
     }
@@ -75,6 +80,10 @@ pub(crate) fn answer(
         }
     })?;
     let mut written = Written::default();
+    if let Some(file) = file {
+        let is_complete = mapped.answer.search.stop.is_complete();
+        written.note(if is_complete { file.remove() } else { file.leave() });
+    }
     if let Some(file) = &arguments.certificate {
         let certificate = mapped.certificate(input).ok_or(Failure::NothingProved);
         written.note(certificate.and_then(|certificate| write_file(file, &certificate)));
@@ -94,10 +103,20 @@ pub(crate) fn answer(
     Ok(Status::of(&mapped.answer))
 }
 
+/// How the search is kept, if it is.
+fn kept(arguments: &MapArguments, file: Option<Arc<CheckpointFile>>) -> Option<Checkpoints> {
+    let every = Duration::try_from_secs_f64(arguments.checkpoint_every).unwrap_or(Duration::MAX);
+    file.map(|keeper| Checkpoints { keeper, every })
+}
+
 /// Searches with a progress line; Ctrl-C leaves what is known so far.
-pub(crate) fn searched(input: &Input, options: &MappingOptions) -> Result<Mapped, Failure> {
+pub(crate) fn searched(
+    input: &Input,
+    options: &MappingOptions,
+    checkpoints: Option<&Checkpoints>,
+) -> Result<Mapped, Failure> {
     let travels = input.as_exploration().travels().len().min(options.limits.travels.unwrap_or(usize::MAX));
-    let mapped = watched(travels, |monitor| map(input, options, monitor))?;
+    let mapped = watched(travels, |monitor| map_kept(input, options, monitor, checkpoints))?;
     let known = input.as_surveyed().map_or(0, |surveyed| surveyed.warnings().len());
     warn(mapped.answer.input.name.as_ref(), &mapped.answer.warnings[known..]);
     Ok(mapped)
