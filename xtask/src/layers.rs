@@ -11,7 +11,7 @@ use crate::root;
 ///
 /// The layers follow the SSH: control and causal below topological, metrical beside it, search above.
 /// Dev-dependencies are free; `hssh-oracle` may be nothing else.
-const LAYERS: [(&str, &[&str]); 13] = [
+const LAYERS: [(&str, &[&str]); 14] = [
     ("hssh-topology", &[]),
     ("hssh-causal", &["hssh-topology"]),
     ("hssh-verify", &["hssh-causal", "hssh-topology"]),
@@ -19,6 +19,7 @@ const LAYERS: [(&str, &[&str]); 13] = [
     ("hssh-local", &["hssh-causal", "hssh-topology", "hssh-metrics"]),
     ("hssh-io", &["hssh-metrics", "hssh-local"]),
     ("hssh-search", &["hssh-causal", "hssh-topology", "hssh-metrics"]),
+    ("hssh-cluster", &["hssh-causal", "hssh-search"]),
     ("hssh-world", &["hssh-causal", "hssh-topology", "hssh-metrics", "hssh-local"]),
     ("hssh-draw", &["hssh-topology", "hssh-metrics", "hssh-local", "hssh-search"]),
     ("hssh-oracle", &["hssh-causal", "hssh-topology"]),
@@ -32,6 +33,7 @@ const LAYERS: [(&str, &[&str]); 13] = [
             "hssh-local",
             "hssh-io",
             "hssh-search",
+            "hssh-cluster",
             "hssh-world",
             "hssh-draw",
         ],

@@ -63,6 +63,7 @@ pub use branching::{BranchingSample, branching};
 pub use builder::{MapperBuilder, MapperError, Objective};
 pub use checkpoint::{CheckpointError, Checkpoints, Keeper, Source};
 pub use constraints::{ConstraintError, VisitConstraints, VisitPair};
+pub use count::{BranchCounter, CountedBranch, SharedCount};
 pub use crew::{ThreadsError, useful_threads};
 pub use cursor::Cursor;
 pub use depth_first::{Visitor, depth_first};

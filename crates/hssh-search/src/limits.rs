@@ -94,6 +94,12 @@ impl Monitor {
         self.stop.store(false, Ordering::Relaxed);
     }
 
+    /// Whether somebody asked the search to stop.
+    #[must_use]
+    pub fn is_interrupted(&self) -> bool {
+        self.stop.load(Ordering::Relaxed)
+    }
+
     /// The search goes on from a checkpoint with so many nodes.
     pub(crate) fn goes_on(&self, nodes: u64, travels: usize) {
         self.nodes.store(nodes, Ordering::Relaxed);

@@ -77,7 +77,7 @@ impl MapperBuilder {
         self.constraints.check(exploration.travels().len())?;
         let checkpoints = self.checkpoints.clone();
         let identity = || Identity::of(self.strategy(), &self, exploration);
-        let mut keeping = Keeping::new(checkpoints.as_ref(), identity);
+        let mut keeping = Keeping::new(checkpoints, identity);
         let mut mapper = Mapper::new(self, Experience::from(exploration), &watch)?;
         mapper.begin(&keeping)?;
         mapper.go_on(&watch, &mut keeping);
@@ -223,7 +223,7 @@ impl Mapper {
     }
 
     /// Puts the search where its checkpoint says that it is, if there is one.
-    fn begin(&mut self, keeping: &Keeping<'_>) -> Result<(), MapperError> {
+    fn begin(&mut self, keeping: &Keeping) -> Result<(), MapperError> {
         let unlimited = Watch::without_limits();
         let Mapper { experience, crew, options, search, seconds, .. } = self;
         let context = Context { experience, axioms: &options.axioms, crew, watch: &unlimited };
@@ -244,7 +244,7 @@ impl Mapper {
     }
 
     /// Searches on under limits that have begun.
-    fn go_on(&mut self, watch: &Watch, keeping: &mut Keeping<'_>) -> StopReason {
+    fn go_on(&mut self, watch: &Watch, keeping: &mut Keeping) -> StopReason {
         let started = Instant::now();
         let travels = self.experience.observations.len();
         let Mapper { experience, crew, options, search, seconds, .. } = self;
@@ -484,7 +484,7 @@ impl Mapper {
 fn kept<A: Pack>(
     engine: &mut Engine<A>,
     context: Context<'_>,
-    keeping: &mut Keeping<'_>,
+    keeping: &mut Keeping,
     head: impl Fn(&mut Pen<'_>) -> io::Result<()>,
 ) -> StopReason {
     let limits = engine.limits(context.watch);

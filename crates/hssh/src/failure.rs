@@ -65,6 +65,9 @@ pub(crate) enum Failure {
     Options { file: PathBuf, error: Box<hssh::pipeline::OptionsError> },
     #[error("{}: {lost}, and --strict accepts no partial answer", file.display())]
     Partial { file: PathBuf, lost: String },
+    #[cfg(feature = "cluster")]
+    #[error("{}: {error}", file.display())]
+    Hosts { file: PathBuf, error: hssh_cluster::HostsError },
     #[error(transparent)]
     Graph(#[from] hssh::graph::GraphFailure),
     #[error("cannot solve the pose graph: {0}")]
@@ -123,6 +126,9 @@ fn help(error: &PipelineError) -> &'static str {
             "\nhelp: a higher limit in the options' readings.model allows more errors in one travel"
         }
         PipelineError::NoAccount { .. } => "\nhelp: give the search more time, memory or hypotheses",
+        PipelineError::Elsewhere(_) => {
+            "\nhelp: with --checkpoint FILE the same command goes on from what was counted, by any number of processes"
+        }
         PipelineError::KeptReadings => "\nhelp: leave out --checkpoint, or --readings",
         PipelineError::ClosedOfAll => "\nhelp: --closed goes with --search posterior, best-first and proof",
         PipelineError::GenusOfPosterior => "\nhelp: --planar and --max-genus bound it in every search",

@@ -8,8 +8,8 @@ use hssh_topology::Olp;
 
 use crate::answer::Answer;
 use crate::pipeline::{
-    Input, MappingOptions, Monitor, PipelineError, SearchFailure, SearchLimits, SearchMethod, Searched, Task,
-    answered,
+    Input, MappingOptions, Means, Monitor, PipelineError, SearchFailure, SearchLimits, SearchMethod,
+    Searched, Task, answered,
 };
 
 /// A robot's exploration while it goes on, and the search for its maps.
@@ -164,8 +164,15 @@ fn begun(
     method: SearchMethod,
     monitor: &Arc<Monitor>,
 ) -> Result<Box<Mapper>, PipelineError> {
-    let task =
-        Task { exploration, options, method, likeness: None, monitor, is_online: true, checkpoints: None };
+    let task = Task {
+        exploration,
+        options,
+        method,
+        likeness: None,
+        monitor,
+        is_online: true,
+        means: &Means::default(),
+    };
     let start = &exploration.star_types()[exploration.start().index()];
     let mapper = task.mapper_builder()?.start_with(&start.star, &start.bearings);
     Ok(Box::new(mapper.map_err(SearchFailure::from)?))

@@ -40,6 +40,12 @@ pub(crate) fn is_interrupted() -> bool {
     ASKED.load(Ordering::Relaxed)
 }
 
+/// The monitor of the one search of this program.
+#[cfg(feature = "cluster")]
+pub(crate) fn monitor() -> Arc<Monitor> {
+    Arc::clone(&MONITOR)
+}
+
 /// Takes an interruption as heard: the work that follows is not to stop, and another signal interrupts that.
 pub(crate) fn hear_interruption() {
     ASKED.store(false, Ordering::Relaxed);

@@ -8,6 +8,7 @@ mod kills;
 mod long;
 mod memory;
 mod online;
+mod processes;
 mod proof;
 pub(crate) mod speed;
 pub(crate) mod usage;
@@ -34,6 +35,7 @@ pub(crate) fn run(flags: &flags::Bench) -> Result<(), Box<dyn Error>> {
         Some("certificates") => certificates::run(),
         Some("kills") => kills::run(),
         Some("memory") => memory::run(),
+        Some("processes") => processes::run(),
         Some("long") => long::run(limit),
         Some("online") => online::run(flags.data.as_deref().or(data.as_deref())),
         None => {
@@ -42,7 +44,7 @@ pub(crate) fn run(flags: &flags::Bench) -> Result<(), Box<dyn Error>> {
             proof::run(limit)
         }
         Some(other) => {
-            let names = "speed, faces, proof, graphs, closures, wrong-closures, online, certificates, long, kills, memory";
+            let names = "speed, faces, proof, graphs, closures, wrong-closures, online, certificates, long, kills, memory, processes";
             Err(format!("there is no benchmark `{other}`; there are: {names}").into())
         }
     }

@@ -32,6 +32,11 @@ impl Identity {
         }
     }
 
+    /// A number that tells it from others.
+    pub(crate) fn number(&self) -> u64 {
+        fingerprint(format!("{self:?}").as_bytes())
+    }
+
     /// Whether a checkpoint of that search is one of this.
     ///
     /// # Errors

@@ -53,16 +53,16 @@ const SHARE: u32 = 10;
 
 /// The checkpoints of one running search.
 #[derive(Debug, Default)]
-pub(crate) struct Keeping<'a> {
+pub(crate) struct Keeping {
     /// How it is kept, and which search it is; nothing if it is not kept.
-    kept: Option<(&'a Checkpoints, Identity)>,
+    kept: Option<(Checkpoints, Identity)>,
     /// When the next one is due.
     pub(crate) due: Option<Instant>,
 }
 
-impl<'a> Keeping<'a> {
+impl Keeping {
     /// A search that begins now; `identity` is asked for only if it is kept.
-    pub(crate) fn new(checkpoints: Option<&'a Checkpoints>, identity: impl FnOnce() -> Identity) -> Self {
+    pub(crate) fn new(checkpoints: Option<Checkpoints>, identity: impl FnOnce() -> Identity) -> Self {
         let kept = checkpoints.map(|checkpoints| (checkpoints, identity()));
         let mut keeping = Keeping { kept, due: None };
         keeping.wait(Duration::ZERO);

@@ -12,7 +12,7 @@ use crate::context::Context;
 use crate::cursor::Cursor;
 use crate::depth_first::walk_on;
 use crate::fringe::Fringe;
-use crate::limits::StopReason;
+use crate::limits::{StopReason, Watch};
 use crate::report::LevelCounts;
 use crate::tally::Tally;
 use crate::tree::{NodeId, Tree};
@@ -24,16 +24,17 @@ const BRANCHES: usize = 2048;
 const BRANCHES_UNDER_LIMIT: usize = 64;
 
 /// The first levels of a tree, down to where it is cut.
+#[derive(Debug)]
 pub(super) struct Top {
     pub(super) tree: Tree,
     cut: Fringe,
 }
 
-/// A branch, as far as it was counted.
+/// A branch of a tree, as far as it was counted. Whoever knows the exploration and the axioms can count on.
 #[derive(Clone, Debug, Serialize, Deserialize)]
-struct Branch {
+pub struct CountedBranch {
     /// Where it begins, in the top.
-    root: NodeId,
+    pub(super) root: NodeId,
     counts: Counts,
     /// Where counting was broken off; nothing if it came to its end.
     broken_at: Option<Vec<u32>>,
@@ -45,12 +46,12 @@ pub(super) struct Progress {
     /// Of the top, and of the first branches.
     pub(super) total: Counts,
     /// All others, in order.
-    rest: VecDeque<Branch>,
+    rest: VecDeque<CountedBranch>,
 }
 
 impl Top {
-    /// Grows the first levels, and counts them. If a limit ends it, what was counted of complete levels, and the reason.
-    pub(super) fn grow(context: Context<'_>) -> Result<(Self, Progress), (Counts, StopReason)> {
+    /// Grows the first levels, and counts them; if a limit ends it, only what was counted of complete levels, and the reason.
+    pub(super) fn grow(context: Context<'_>) -> Result<(Self, Progress), Box<(Counts, StopReason)>> {
         let (mut tree, mut cut, mut tally) = (Tree::new(), Fringe::default(), Tally::new());
         let mut stop = None;
         while stop.is_none() && cut.depth < context.travels() && cut.nodes.len() < BRANCHES {
@@ -60,23 +61,31 @@ impl Top {
         levels.resize(context.travels() + 1, LevelCounts::default());
         let total = Counts { levels, removals, steps, ..Counts::default() };
         if let Some(reason) = stop {
-            return Err((total, reason));
+            return Err(Box::new((total, reason)));
         }
-        let whole = |root| Branch { root, counts: Counts::default(), broken_at: Some(Vec::new()) };
+        let whole = |root| CountedBranch { root, counts: Counts::default(), broken_at: Some(Vec::new()) };
         let rest = cut.nodes.clone().map(NodeId::new).map(whole).collect();
         Ok((Top { tree, cut }, Progress { total, rest }))
     }
 }
 
-impl Branch {
+impl CountedBranch {
+    /// Whether it can be a branch of a tree with that top, of so many travels.
+    pub(super) fn is_of(&self, top: &Top, travels: usize) -> bool {
+        let path = self.broken_at.as_deref().unwrap_or_default();
+        top.cut.nodes.contains(&(self.root.index() as u32))
+            && path.len() + top.cut.depth <= travels
+            && path.iter().all(|&entered| entered > 0)
+    }
+
     /// Counts on from where it was broken off, until it ends or something breaks it off again; then why.
-    fn count_on(
+    pub(super) fn count_on(
         &self,
         cursor: &mut Cursor,
         top: &Top,
         preference: Preference,
         context: Context<'_>,
-    ) -> (Branch, Option<StopReason>) {
+    ) -> (CountedBranch, Option<StopReason>) {
         let Context { experience, axioms, watch, .. } = context;
         if let Some(reason) = watch.interruption() {
             return (self.clone(), Some(reason));
@@ -88,7 +97,7 @@ impl Branch {
         counting.tell();
         let Counting { mut counts, stop, .. } = counting;
         counts.removals += walk.removals;
-        (Branch { root: self.root, counts, broken_at: walk.broken_at }, stop)
+        (CountedBranch { root: self.root, counts, broken_at: walk.broken_at }, stop)
     }
 }
 
@@ -96,7 +105,7 @@ impl Progress {
     /// Counts on until everything is counted, or a limit ends it.
     pub(super) fn advance(&mut self, top: &Top, preference: Preference, context: Context<'_>) -> StopReason {
         loop {
-            if let Some(reason) = self.take_first(preference, context) {
+            if let Some(reason) = self.take_first(preference, context.watch) {
                 return reason;
             }
             if self.rest.is_empty() {
@@ -104,9 +113,9 @@ impl Progress {
             }
             let at_once = if context.watch.limits_nodes() { BRANCHES_UNDER_LIMIT } else { self.rest.len() };
             let broken = self.rest.iter_mut().take(at_once).filter(|branch| branch.broken_at.is_some());
-            let mut together: Vec<&mut Branch> = broken.collect();
+            let mut together: Vec<&mut CountedBranch> = broken.collect();
             let counted = {
-                let pieces: Vec<&Branch> = together.iter().map(|branch| &**branch).collect();
+                let pieces: Vec<&CountedBranch> = together.iter().map(|branch| &**branch).collect();
                 context.crew.map(&pieces, context.experience, |cursor, branch| {
                     branch.count_on(cursor, top, preference, context)
                 })
@@ -116,17 +125,36 @@ impl Progress {
                 **branch = counted;
                 stop = stop.or(reason);
             }
-            if let Some(reason) = self.take_first(preference, context).or(stop) {
+            if let Some(reason) = self.take_first(preference, context.watch).or(stop) {
                 return reason;
             }
         }
     }
 
+    /// The first branch that is not counted to its end, of those that `is_free`.
+    pub(super) fn next(&self, is_free: impl Fn(NodeId) -> bool) -> Option<&CountedBranch> {
+        self.rest.iter().find(|branch| branch.broken_at.is_some() && is_free(branch.root))
+    }
+
+    /// Puts a branch that was counted on into its place; whether there is one.
+    pub(super) fn put(&mut self, branch: CountedBranch) -> bool {
+        let place = self.rest.binary_search_by_key(&branch.root, |other| other.root);
+        if let Ok(place) = place {
+            self.rest[place] = branch;
+        }
+        place.is_ok()
+    }
+
+    /// Whether everything was counted.
+    pub(super) fn is_complete(&self) -> bool {
+        self.rest.is_empty()
+    }
+
     /// Takes over what was counted of the first branches, as far as they were counted to their end and limits allow.
-    fn take_first(&mut self, preference: Preference, context: Context<'_>) -> Option<StopReason> {
+    pub(super) fn take_first(&mut self, preference: Preference, watch: &Watch) -> Option<StopReason> {
         while let Some(branch) = self.rest.front().filter(|branch| branch.broken_at.is_none()) {
             let nodes = self.total.nodes() + branch.counts.nodes();
-            if let Some(reason) = context.watch.excess(nodes, 0) {
+            if let Some(reason) = watch.excess(nodes, 0) {
                 return Some(reason);
             }
             self.total.merge(&branch.counts, preference);
@@ -155,13 +183,8 @@ impl Progress {
         travels: usize,
     ) -> Result<Self, CheckpointError> {
         let progress: Progress = unsealed.take()?;
-        let is_branch = |branch: &Branch| {
-            let path = branch.broken_at.as_deref().unwrap_or_default();
-            top.cut.nodes.contains(&(branch.root.index() as u32))
-                && path.len() + top.cut.depth <= travels
-                && path.iter().all(|&entered| entered > 0)
-        };
-        let is_sound = progress.total.levels.len() == travels + 1 && progress.rest.iter().all(is_branch);
+        let is_sound = progress.total.levels.len() == travels + 1
+            && progress.rest.iter().all(|branch| branch.is_of(top, travels));
         if is_sound { Ok(progress) } else { Err(CheckpointError::Damaged) }
     }
 }

@@ -2,6 +2,7 @@
 
 mod branches;
 mod counts;
+mod shared;
 
 use std::time::Instant;
 
@@ -17,6 +18,9 @@ use crate::limits::{StopReason, Watch};
 use crate::report::{LevelCounts, Report};
 use branches::{Progress, Top};
 use counts::Counts;
+
+pub use branches::CountedBranch;
+pub use shared::{BranchCounter, SharedCount};
 
 /// What a count is called.
 const STRATEGY: &str = "exhaustive counting";
@@ -37,14 +41,11 @@ impl MapperBuilder {
         let started = Instant::now();
         let experience = &Experience::from(exploration);
         let crew = Crew::new(self.threads)?;
-        let preference = match self.objective {
-            Objective::Preference(preference) => preference,
-            Objective::Posterior(_) => Preference::default(),
-        };
+        let preference = preference(&self);
         let limits = Watch::start(self.limits, &self.monitor);
         let context = Context { experience, axioms: &self.axioms, crew: &crew, watch: &limits };
         let identity = || Identity::of(STRATEGY.to_owned(), &self, exploration);
-        let mut keeping = Keeping::new(self.checkpoints.as_ref(), identity);
+        let mut keeping = Keeping::new(self.checkpoints.clone(), identity);
 
         let travels = experience.observations.len();
         let kept = keeping.begin(|unsealed| {
@@ -62,7 +63,10 @@ impl MapperBuilder {
             }
             None => match Top::grow(context) {
                 Ok((top, progress)) => (0.0, top, progress),
-                Err((counts, stop)) => return Ok(report(counts, stop, 0, started.elapsed().as_secs_f64())),
+                Err(stopped) => {
+                    let (counts, stop) = *stopped;
+                    return Ok(report(counts, stop, 0, started.elapsed().as_secs_f64()));
+                }
             },
         };
         let seconds = || before + started.elapsed().as_secs_f64();
@@ -80,6 +84,14 @@ impl MapperBuilder {
             }
         };
         Ok(report(progress.total, stop, top.tree.bytes(), seconds()))
+    }
+}
+
+/// How the maps of a count are ranked.
+fn preference(options: &MapperBuilder) -> Preference {
+    match options.objective {
+        Objective::Preference(preference) => preference,
+        Objective::Posterior(_) => Preference::default(),
     }
 }
 

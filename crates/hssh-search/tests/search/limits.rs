@@ -283,3 +283,17 @@ fn reasons_in_words() {
         assert_eq!(reason.to_string(), text);
     }
 }
+
+/// Where somebody tells what the process takes, the limit is on that.
+#[test]
+fn a_limit_on_what_the_process_takes() {
+    let stop = |most: u64| {
+        let monitor = Arc::new(Monitor::default());
+        monitor.watch_memory(|| Some(100 << 20));
+        let limits = Limits { bytes: Some(most << 20), nodes: Some(1000), ..NONE };
+        let search = Mapper::builder().axioms(planar()).limits(limits).monitor(monitor);
+        search.explain(&walk()).unwrap().report().stop
+    };
+    assert_eq!(stop(100), StopReason::MemoryLimit);
+    assert_eq!(stop(110), StopReason::NodeLimit);
+}

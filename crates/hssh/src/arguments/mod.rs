@@ -3,6 +3,8 @@
 mod export;
 mod local;
 mod page;
+#[cfg(feature = "cluster")]
+mod processes;
 mod search;
 
 use std::path::PathBuf;
@@ -20,6 +22,8 @@ pub(crate) use local::{
     TrackArguments,
 };
 pub(crate) use page::PageArguments;
+#[cfg(feature = "cluster")]
+pub(crate) use processes::ProcessArguments;
 pub(crate) use search::SearchArguments;
 
 /// Topological maps of places that look alike: all that explain an exploration, ranked and drawn.
@@ -76,6 +80,9 @@ pub(crate) struct MapArguments {
     /// With --checkpoint: so much time is between two, at least.
     #[arg(long, value_name = "SECONDS", value_parser = positive, default_value_t = 60.0, requires = "checkpoint", help_heading = "Limits")]
     pub(crate) checkpoint_every: f64,
+    #[cfg(feature = "cluster")]
+    #[command(flatten)]
+    pub(crate) processes: ProcessArguments,
     /// How many maps to list [default: 10].
     #[arg(long, value_name = "N")]
     pub(crate) top: Option<usize>,

@@ -1,7 +1,7 @@
 //! `hssh explain`: how a map explains an exploration, travel by travel, in words.
 
 use hssh::answer::Explanation;
-use hssh::pipeline::SearchMethod;
+use hssh::pipeline::{Means, SearchMethod};
 
 use crate::arguments::ExplainArguments;
 use crate::command::map::searched;
@@ -17,7 +17,7 @@ pub(crate) fn run(arguments: &ExplainArguments) -> Result<Status, Failure> {
         return Err(Failure::Usage(help.to_owned()));
     }
     let input = read_input(&arguments.file, &options, &arguments.laser.topics)?;
-    let mapped = searched(&input, &options, None)?;
+    let mapped = searched(&input, &options, &Means::default())?;
     let answer = &mapped.answer;
     if answer.maps.is_empty() {
         print(&if arguments.json { answer.to_json() } else { answer.verdict.sentence.clone() + "\n" })?;

@@ -26,6 +26,18 @@ pub use hssh_search::{Checkpoints, Keeper, Monitor, Source};
 /// How much more alike pairs of visits look than places at random.
 pub(crate) type Likeness = Appearance;
 
+/// Who counts instead of this process alone; the report, or nothing if another process has it.
+pub type CountBy<'a> = dyn Fn(MapperBuilder, &Exploration) -> Result<Option<Report>, PipelineError> + 'a;
+
+/// Means of a search that this process does not have by itself.
+#[derive(Default)]
+pub struct Means<'a> {
+    /// Where its state is kept from time to time.
+    pub checkpoints: Option<Checkpoints>,
+    /// Who counts, where hypotheses are only counted.
+    pub count: Option<&'a CountBy<'a>>,
+}
+
 /// What to search.
 pub(crate) struct Task<'a> {
     pub(crate) exploration: &'a Exploration,
@@ -36,8 +48,7 @@ pub(crate) struct Task<'a> {
     pub(crate) monitor: &'a Arc<Monitor>,
     /// Whether more travels are to come.
     pub(crate) is_online: bool,
-    /// Where its state is kept from time to time; nothing if it is not.
-    pub(crate) checkpoints: Option<&'a Checkpoints>,
+    pub(crate) means: &'a Means<'a>,
 }
 
 /// A search that has come to its end.
@@ -102,7 +113,12 @@ impl Task<'_> {
     }
 
     fn count(self) -> Result<Searched, PipelineError> {
-        let report = self.builder().count(self.exploration).map_err(SearchFailure::from)?;
+        let report = match self.means.count {
+            Some(count) => {
+                count(self.builder(), self.exploration)?.ok_or(PipelineError::AnsweredElsewhere)?
+            }
+            None => self.builder().count(self.exploration).map_err(SearchFailure::from)?,
+        };
         Ok(Searched {
             summary: summary(&report, SearchObjective::Preference, SearchOrder::Count, false),
             certificate: certificate(&report, false),
@@ -119,7 +135,7 @@ impl Task<'_> {
             Some(GenusOrder::Last) => GenusRank::Last,
         };
         let builder =
-            self.checkpoints.cloned().into_iter().fold(Mapper::builder(), MapperBuilder::checkpoints);
+            self.means.checkpoints.clone().into_iter().fold(Mapper::builder(), MapperBuilder::checkpoints);
         builder
             .axioms(self.options.axioms)
             .preference(Preference { genus })

@@ -1,5 +1,7 @@
 //! Why there is no answer, or something of it cannot be had.
 
+use std::error::Error;
+
 use hssh_causal::ExplorationError;
 use hssh_local::{LatticeError, LogError, SurveyError};
 use hssh_metrics::PriorError;
@@ -70,6 +72,12 @@ pub enum PipelineError {
         "readings are for explorations: visits along a laser log show one star at one place by the survey, and ways are the robot's own"
     )]
     ReadingsOfLog,
+    /// The search by other means than those of this process.
+    #[error("{0}")]
+    Elsewhere(Box<dyn Error + Send + Sync>),
+    /// Another process has the answer.
+    #[error("the search is spread over processes, the first of which has the answer")]
+    AnsweredElsewhere,
     /// The search for accounts of errors keeps no checkpoints.
     #[error("a search that reckons with errors of perception keeps no checkpoints")]
     KeptReadings,

@@ -14,7 +14,7 @@ mod reading;
 mod scans;
 mod tracked;
 
-pub use engine::{Checkpoints, Keeper, Monitor, Source};
+pub use engine::{Checkpoints, CountBy, Keeper, Means, Monitor, Source};
 pub use error::{PipelineError, SearchFailure};
 pub use input::{Input, SurveyedLog};
 pub use laser::LaserChoice;
@@ -79,18 +79,18 @@ impl PlacedMap {
 /// If options make no sense or contradict one another, measurements that the search needs are missing or useless, or the operating system
 /// gives no threads.
 pub fn map(input: &Input, options: &MappingOptions, monitor: &Arc<Monitor>) -> Result<Mapped, PipelineError> {
-    map_kept(input, options, monitor, None)
+    map_with(input, options, monitor, &Means::default())
 }
 
-/// The same with a search that keeps its state from time to time, and goes on from what was kept.
+/// The same with other means than those of this process.
 ///
 /// # Errors
-/// As [`map`], and if what was kept is of another search or damaged, or if errors of perception are reckoned with.
-pub fn map_kept(
+/// As [`map`], and if what was kept is of another search or damaged, or if errors of perception are reckoned with, which no means help.
+pub fn map_with(
     input: &Input,
     options: &MappingOptions,
     monitor: &Arc<Monitor>,
-    checkpoints: Option<&Checkpoints>,
+    means: &Means<'_>,
 ) -> Result<Mapped, PipelineError> {
     options.check()?;
     let mut options = options.clone();
@@ -109,7 +109,7 @@ pub fn map_kept(
     let read = match options.readings.model {
         None => None,
         Some(_) if input.surveyed.is_some() => return Err(PipelineError::ReadingsOfLog),
-        Some(_) if checkpoints.is_some() => return Err(PipelineError::KeptReadings),
+        Some(_) if means.checkpoints.is_some() => return Err(PipelineError::KeptReadings),
         Some(_) if exploration.travels().iter().any(|travel| travel.odometry.is_none()) => {
             return Err(PipelineError::UnmeasuredReadings);
         }
@@ -128,8 +128,7 @@ pub fn map_kept(
     }
     let likeness = input.surveyed.as_ref().map(|surveyed| surveyed.likeness(options.posterior.likeness));
     let exploration = &exploration;
-    let task =
-        Task { exploration, options: &options, method, likeness, monitor, is_online: false, checkpoints };
+    let task = Task { exploration, options: &options, method, likeness, monitor, is_online: false, means };
     Ok(answered(input, exploration, &options, task.search()?, warnings))
 }
 
@@ -388,8 +387,8 @@ impl Mapped {
         let surveyed = input.surveyed.as_ref();
         let likeness = surveyed.map(|surveyed| surveyed.likeness(options.posterior.likeness));
         let (exploration, options) = (&exploration, &options);
-        let (is_online, checkpoints) = (true, None);
-        let task = Task { exploration, options, method, likeness, monitor, is_online, checkpoints };
+        let (is_online, means) = (true, &Means::default());
+        let task = Task { exploration, options, method, likeness, monitor, is_online, means };
         let mut history = task.history(most_nodes)?;
         // As in the answer, what the places of a log rest on is a factor.
         let evidence = surveyed.map_or(1.0, |surveyed| surveyed.evidence().probability);

@@ -72,22 +72,17 @@ fn survives_kills(name: &str, side: u32, measured: bool, search: &[&str]) {
 
 #[test]
 fn a_count_goes_on_after_it_was_killed() {
-    survives_kills("count", 4, false, &["--search", "count", "--planar"]);
+    survives_kills("count", 5, false, &["--search", "count", "--planar", "--travels", "32"]);
 }
 
 #[test]
 fn a_search_level_by_level_goes_on_after_it_was_killed() {
-    survives_kills(
-        "breadth-first",
-        4,
-        false,
-        &["--search", "breadth-first", "--planar", "--max-places", "16"],
-    );
+    survives_kills("breadth-first", 5, false, &["--search", "breadth-first", "--planar", "--travels", "21"]);
 }
 
 #[test]
 fn a_search_by_posterior_goes_on_after_it_was_killed() {
-    survives_kills("posterior", 6, true, &["--search", "posterior", "--rest", "1e-9"]);
+    survives_kills("posterior", 6, true, &["--search", "posterior", "--travels", "46"]);
 }
 
 #[test]

@@ -1,23 +1,33 @@
 //! `hssh map`: the maps that explain an exploration or a log, ranked and drawn.
 
 mod draw;
+#[cfg(not(feature = "cluster"))]
+#[path = "alone.rs"]
+mod processes;
+#[cfg(feature = "cluster")]
+mod processes;
+mod search;
 
 use std::sync::Arc;
 use std::time::Duration;
 
 use hssh::answer::Listing;
-use hssh::pipeline::{Checkpoints, Input, Mapped, MappingOptions, SearchMethod, SurveyedLog, map_kept};
+use hssh::pipeline::{Checkpoints, Input, Mapped, MappingOptions, PipelineError, SearchMethod, SurveyedLog};
 
 use crate::arguments::MapArguments;
 use crate::command::export::write_maps;
 use crate::command::page;
 use crate::command::stages::draw_survey;
 use crate::failure::{Failure, Status};
-use crate::input::{read_input, refuse_partial, warn};
+use crate::input::{read_input, refuse_partial};
 use crate::output::{CheckpointFile, Written, print, write_file};
-use crate::progress::watched;
+
+pub(crate) use search::searched;
 
 pub(crate) fn run(arguments: &MapArguments) -> Result<Status, Failure> {
+    if processes::is_helper(arguments) {
+        return help(arguments);
+    }
     let options = checked_options(arguments)?;
     let input = read_input(&arguments.file, &options, &arguments.laser.topics)?;
     answer(arguments, &input, &options, |_| ())
@@ -57,7 +67,7 @@ pub(crate) fn answer(
         (Some(_), None) => {}
     }
     let file = arguments.checkpoint.as_deref().map(|file| Arc::new(CheckpointFile::new(file)));
-    let mapped = searched(input, options, kept(arguments, file.clone()).as_ref());
+    let mapped = processes::spread(arguments, input, options, kept(arguments, file.clone()));
     let mut mapped = mapped.map_err(|failure| failure.of_checkpoint(arguments.checkpoint.as_deref()))?;
     if arguments.with_trajectory {
         mapped.carry_trajectories(input);
@@ -80,10 +90,6 @@ pub(crate) fn answer(
         }
     })?;
     let mut written = Written::default();
-    if let Some(file) = file {
-        let is_complete = mapped.answer.search.stop.is_complete();
-        written.note(if is_complete { file.remove() } else { file.leave() });
-    }
     if let Some(file) = &arguments.certificate {
         let certificate = mapped.certificate(input).ok_or(Failure::NothingProved);
         written.note(certificate.and_then(|certificate| write_file(file, &certificate)));
@@ -99,6 +105,10 @@ pub(crate) fn answer(
     }
     draw::draw(arguments, input, &mapped, &mut written)?;
     write_maps(&arguments.file, &arguments.files, arguments.rank, (input, &mapped), &mut written);
+    if let Some(file) = file {
+        let is_complete = mapped.answer.search.stop.is_complete();
+        written.note(if is_complete { file.remove() } else { file.leave() });
+    }
     written.done()?;
     Ok(Status::of(&mapped.answer))
 }
@@ -109,17 +119,17 @@ fn kept(arguments: &MapArguments, file: Option<Arc<CheckpointFile>>) -> Option<C
     file.map(|keeper| Checkpoints { keeper, every })
 }
 
-/// Searches with a progress line; Ctrl-C leaves what is known so far.
-pub(crate) fn searched(
-    input: &Input,
-    options: &MappingOptions,
-    checkpoints: Option<&Checkpoints>,
-) -> Result<Mapped, Failure> {
-    let travels = input.as_exploration().travels().len().min(options.limits.travels.unwrap_or(usize::MAX));
-    let mapped = watched(travels, |monitor| map_kept(input, options, monitor, checkpoints))?;
-    let known = input.as_surveyed().map_or(0, |surveyed| surveyed.warnings().len());
-    warn(mapped.answer.input.name.as_ref(), &mapped.answer.warnings[known..]);
-    Ok(mapped)
+/// Takes part in a search whose answer another process gives.
+fn help(arguments: &MapArguments) -> Result<Status, Failure> {
+    let options = arguments.options()?;
+    let input = read_input(&arguments.file, &options, &arguments.laser.topics)?;
+    match processes::spread(arguments, &input, &options, None) {
+        Err(Failure::Pipeline(error)) if matches!(*error, PipelineError::AnsweredElsewhere) => {
+            Ok(Status::Found)
+        }
+        Err(failure) => Err(failure),
+        Ok(_) => Ok(Status::Found),
+    }
 }
 
 fn refuse_what_needs_a_log(arguments: &MapArguments) -> Result<(), Failure> {

@@ -1,0 +1,22 @@
+//! Searches by this process alone: the program was built without those that are spread over several.
+
+use hssh::pipeline::{Checkpoints, Input, Mapped, MappingOptions, Means};
+
+use super::search::searched;
+use crate::arguments::MapArguments;
+use crate::failure::Failure;
+
+/// Whether this process only takes part: another one has the answer.
+pub(super) fn is_helper(_: &MapArguments) -> bool {
+    false
+}
+
+/// Searches.
+pub(super) fn spread(
+    _: &MapArguments,
+    input: &Input,
+    options: &MappingOptions,
+    checkpoints: Option<Checkpoints>,
+) -> Result<Mapped, Failure> {
+    searched(input, options, &Means { checkpoints, count: None })
+}
