@@ -31,5 +31,5 @@ pub use log::{LaserLog, LoggedScan};
 pub use message::{LaserKind, LaserMessage, LaserView, Message};
 pub use mount::LaserMount;
 pub use position::LogPosition;
-pub(crate) use raw::{Moment, RawLog, RawScan, came_back};
+pub(crate) use raw::{Moment, RawLog, RawScan};
 pub use reader::LogReader;

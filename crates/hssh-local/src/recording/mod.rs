@@ -1,12 +1,8 @@
 //! A laser log from a recording whose scans and odometry come by themselves, each with its own time.
 
-use std::collections::BTreeMap;
-
 use hssh_metrics::Pose;
 
-use crate::carmen::{
-    LaserKind, LaserLog, LogError, LogPosition, LogWarning, LoggedScan, Moment, RawLog, RawScan, came_back,
-};
+use crate::carmen::{LaserKind, LaserLog, LogError, LogPosition, LogWarning, Moment, RawLog, RawScan};
 use crate::matching::{TimedScan, odometry_from_scans};
 use crate::scan::Scan;
 
@@ -79,23 +75,8 @@ impl LaserLog {
         let (geometry, mut raw) = merged(scans, &odometry);
         raw.bridge_jumps(&mut warnings);
         let max_range = raw.limit(&mut warnings)?;
-        let logged = |(scan, (view, turn)): (RawScan, (f64, f64))| LoggedScan {
-            scan: Scan { ranges: came_back(scan.ranges, max_range), view, turn },
-            odometry: raw.trajectory[scan.moment].pose,
-            moment: scan.moment,
-            corrected: scan.corrected,
-            at: scan.at,
-            time: scan.time,
-        };
-        Ok(LaserLog {
-            scans: raw.scans.into_iter().zip(geometry).map(logged).collect(),
-            trajectory: raw.trajectory.into_iter().map(|moment| moment.pose).collect(),
-            max_range,
-            skipped: BTreeMap::new(),
-            // A recording says where its laser looks.
-            is_facing_unclear: false,
-            warnings,
-        })
+        // A recording says where its laser looks.
+        Ok(raw.into_log(geometry, max_range, warnings))
     }
 }
 
