@@ -83,7 +83,7 @@ pub enum SurveyError {
     /// A way so long that its covariance is useless.
     #[error("the way from visit {visit} to the next cannot be measured: {problem}")]
     Motion {
-        /// The visit, counted from 1.
+        /// The visit, counted from 0.
         visit: usize,
         /// Why not.
         problem: UncertaintyError,
@@ -91,7 +91,7 @@ pub enum SurveyError {
     /// Nobody knows by which ends the robot went from one visit to the next.
     #[error("by which ways the robot went from visit {visit} to the next is not known")]
     NoWay {
-        /// The visit, counted from 1.
+        /// The visit, counted from 0.
         visit: usize,
     },
     /// The visits are no exploration.
