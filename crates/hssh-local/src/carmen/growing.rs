@@ -76,7 +76,8 @@ impl GrowingLog {
         let is_facing_unclear = is_whole && raw.check_facing(view, max_range, &mut warnings);
         warnings.sort_by_key(LogWarning::position);
         let geometry = std::iter::repeat((view, turn));
-        Ok(LaserLog { is_facing_unclear, ..raw.into_log(geometry, max_range, warnings) })
+        let is_laser_given = known.pose.is_some();
+        Ok(LaserLog { is_facing_unclear, is_laser_given, ..raw.into_log(geometry, max_range, warnings) })
     }
 }
 

@@ -23,6 +23,7 @@ mod mount;
 mod position;
 mod raw;
 mod reader;
+mod turn;
 mod view;
 
 pub use error::{LogError, LogWarning, MessageProblem};
@@ -33,3 +34,4 @@ pub use mount::LaserMount;
 pub use position::LogPosition;
 pub(crate) use raw::{Moment, RawLog, RawScan};
 pub use reader::LogReader;
+pub use turn::LaserTurn;

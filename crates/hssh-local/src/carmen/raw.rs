@@ -164,6 +164,8 @@ impl RawLog {
             max_range,
             skipped: self.skipped,
             is_facing_unclear: false,
+            is_laser_given: false,
+            laser_turn: None,
             warnings,
         }
     }

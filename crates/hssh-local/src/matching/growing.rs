@@ -2,6 +2,7 @@
 
 use super::options::MatchOptions;
 use super::track::{Track, Tracker};
+use super::turned::unreckoned_turn;
 use crate::carmen::LaserLog;
 
 /// A log and the robot's way through it, as far as both have come.
@@ -63,6 +64,15 @@ impl GrowingTrack {
         *self = anew;
         if let Some(log) = log {
             self.follow(log);
+        }
+    }
+
+    /// Turns the odometry with the laser where [`track_turned`](super::track_turned) would; then the track is outdated.
+    pub fn turn_with_laser(&mut self) {
+        let turn = self.log.as_ref().and_then(|log| unreckoned_turn(log, &self.track));
+        if let (Some(turn), Some(log)) = (turn, self.log.take()) {
+            self.log = Some(log.turned(turn));
+            self.is_outdated = true;
         }
     }
 

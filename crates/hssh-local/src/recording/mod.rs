@@ -15,6 +15,8 @@ pub struct Recording {
     pub odometry: Vec<TimedPose>,
     /// Where the laser sits in the frame that the odometry moves, metres ahead and to the left; how it is turned is said by its scans.
     pub laser: [f64; 2],
+    /// Whether who reads it said where the laser sits.
+    pub is_laser_given: bool,
     /// What its reader has to say.
     pub warnings: Vec<LogWarning>,
 }
@@ -54,7 +56,7 @@ impl LaserLog {
     /// # Errors
     /// If there is no scan, or if hardly a beam came back.
     pub fn from_recording(recording: Recording) -> Result<Self, LogError> {
-        let Recording { scans, odometry, laser: [x, y], mut warnings } = recording;
+        let Recording { scans, odometry, laser: [x, y], is_laser_given, mut warnings } = recording;
         if scans.is_empty() {
             return Err(LogError::NothingRecorded);
         }
@@ -76,7 +78,7 @@ impl LaserLog {
         raw.bridge_jumps(&mut warnings);
         let max_range = raw.limit(&mut warnings)?;
         // A recording says where its laser looks.
-        Ok(raw.into_log(geometry, max_range, warnings))
+        Ok(LaserLog { is_laser_given, ..raw.into_log(geometry, max_range, warnings) })
     }
 }
 
@@ -138,7 +140,7 @@ mod tests {
         let scan = Scan { ranges: vec![1.5, f64::INFINITY, 2.5], view: 2.0, turn: 0.5 };
         let scans = times.iter().map(|&time| RecordedScan { scan: scan.clone(), time }).collect();
         let odometry = odometry.iter().map(|&(time, x)| TimedPose { time, pose: Pose::new(x, 0.0, 0.0) });
-        Recording { scans, odometry: odometry.collect(), laser: [0.25, 0.0], warnings: Vec::new() }
+        Recording { scans, odometry: odometry.collect(), laser: [0.25, 0.0], ..Recording::default() }
     }
 
     #[test]

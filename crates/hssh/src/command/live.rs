@@ -43,6 +43,8 @@ pub(crate) fn run(arguments: &LiveArguments) -> Result<Status, Failure> {
     }
     lock(&latest).follow(incoming.into_log(file)?);
     renew(&latest);
+    lock(&latest).turn_with_laser();
+    renew(&latest);
     let input = surveyed(arguments, &latest, &options)?;
     tell_delays(delays, &made);
     let status = map::answer(&arguments.map, &input, &options, |mapped| show(&hub, Ok((&input, mapped))))?;
