@@ -180,7 +180,7 @@ impl Window {
         };
         let clearance = |position: usize| f64::from(self.clearance(position)).min(comfort);
         largest.into_iter().max_by(|&a, &b| {
-            clearance(a).total_cmp(&clearance(b)).then(off(b).total_cmp(&off(a))).then(b.cmp(&a))
+            clearance(a).total_cmp(&clearance(b)).then_with(|| off(b).total_cmp(&off(a))).then(b.cmp(&a))
         })
     }
 
