@@ -15,6 +15,6 @@ impl LaserTurn {
     pub fn is_clear(&self) -> bool {
         /// Radians: half a degree.
         const SMALL: f64 = 0.0087;
-        self.angle.abs() > SMALL.max(6.0 * self.sigma)
+        self.angle.abs() > SMALL.max(5.0 * self.sigma)
     }
 }
