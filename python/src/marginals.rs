@@ -52,15 +52,15 @@ impl PyMarginals {
         py: Python<'py>,
         poses: Option<&Bound<'py, PyAny>>,
     ) -> PyResult<Bound<'py, PyAny>> {
-        let chosen = match poses {
-            None => (0..self.count as u32).collect(),
-            Some(poses) => selection("poses", poses, self.count)?,
-        };
-        let all: Vec<_> = finished(py, |stop| {
-            let going = chosen.iter().take_while(|_| !stop.is_asked());
-            going.map(|&pose| self.marginals.covariance(PoseId(pose))).collect()
-        })?;
-        stack(py, &all)
+        let chosen = poses.map(|poses| selection("poses", poses, self.count)).transpose()?;
+        let all = finished(py, |_| self.marginals.covariances())?;
+        match chosen {
+            None => stack(py, &all),
+            Some(chosen) => {
+                let chosen: Vec<_> = chosen.into_iter().map(|pose| all[pose as usize]).collect();
+                stack(py, &chosen)
+            }
+        }
     }
 
     /// The covariance of two poses, shape (6, 6), the first in the upper left block.

@@ -11,7 +11,6 @@ pub(crate) fn run(screenshots: Option<&str>) -> Result<(), Box<dyn Error>> {
     let shell = Shell::new()?;
     shell.change_dir(root::root());
     cmd!(shell, "cargo test --quiet --workspace --test page --no-run").run()?;
-    let target = std::env::var_os("CARGO_TARGET_DIR").map_or_else(|| root::root().join("target"), Into::into);
-    let program = target.join("debug").join(format!("hssh{}", std::env::consts::EXE_SUFFIX));
+    let program = root::built("hssh");
     Ok(cmd!(shell, "python3 scripts/page/check.py {program} {screenshots...}").run()?)
 }

@@ -116,7 +116,8 @@ impl JsonLines {
     #[must_use]
     pub fn new(laser: KnownLaser) -> Self {
         let at = laser.pose.unwrap_or_default();
-        let recording = Recording { laser: [at.x, at.y], ..Recording::default() };
+        let is_laser_given = laser.pose.is_some();
+        let recording = Recording { laser: [at.x, at.y], is_laser_given, ..Recording::default() };
         JsonLines { laser, recording, lines: 0, unreadable: None, back: None }
     }
 

@@ -127,7 +127,11 @@ impl Table {
             angles: [None; 2],
             view: laser.view.unwrap_or(std::f64::consts::PI),
             turn: pose.theta,
-            recording: Recording { laser: [pose.x, pose.y], ..Recording::default() },
+            recording: Recording {
+                laser: [pose.x, pose.y],
+                is_laser_given: laser.pose.is_some(),
+                ..Recording::default()
+            },
             back: None,
         }
     }

@@ -41,8 +41,8 @@ mod skeleton;
 mod survey;
 
 pub use carmen::{
-    GrowingLog, LaserKind, LaserLog, LaserMessage, LaserMount, LaserView, LogError, LogPosition, LogReader,
-    LogWarning, LoggedScan, Message, MessageProblem,
+    GrowingLog, LaserKind, LaserLog, LaserMessage, LaserMount, LaserTurn, LaserView, LogError, LogPosition,
+    LogReader, LogWarning, LoggedScan, Message, MessageProblem,
 };
 pub use closing::{ClosedTrack, ClosingError, ClosingOptions, Closure, close_loops};
 pub use distance::DistanceField;
@@ -53,8 +53,8 @@ pub use map_server::{
     MapError, encode_png, read_floor_plan, read_map, read_map_with_remarks, write_map, write_png,
 };
 pub use matching::{
-    GrowingTrack, LaserTurn, MatchOptions, MotionNoise, Slip, TimedScan, Track, TrackedScan, Tracker,
-    odometry_from_scans, track,
+    GrowingTrack, MatchOptions, MotionNoise, Slip, TimedScan, Track, TrackedScan, Tracker,
+    odometry_from_scans, track, track_turned,
 };
 pub use place::{
     DoorOptions, Gateway, GatewayOptions, GridPlace, LocalStar, Neighborhood, NeighborhoodError, OpenEnd,
@@ -78,5 +78,5 @@ pub use skeleton::{
 };
 pub use survey::{
     Evidence, PerceptionModel, Resemblance, Survey, SurveyError, SurveyOptions, SurveyStage, SurveyWarning,
-    Visit, doubts, resemblance, survey, survey_tracked,
+    Visit, doubts, resemblance, survey, survey_tracked, turned_laser,
 };

@@ -85,6 +85,18 @@ impl Marginals {
         0.5 * (covariance + covariance.transpose())
     }
 
+    /// The covariance of each pose, as [`covariance`](Self::covariance) has it.
+    ///
+    /// All of them together cost about as much as the factorization.
+    #[must_use]
+    pub fn covariances(&self) -> Vec<Matrix3<f64>> {
+        let blocks = self.factor.inverse_diagonal_blocks();
+        let of_pose = |block: &Option<usize>| {
+            block.map_or_else(Matrix3::zeros, |block| 0.5 * (blocks[block] + blocks[block].transpose()))
+        };
+        self.unknown.iter().map(of_pose).collect()
+    }
+
     /// The covariance of two poses, the first in the upper left block.
     ///
     /// # Panics

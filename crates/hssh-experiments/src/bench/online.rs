@@ -54,7 +54,7 @@ fn longest(data: &Path) -> Result<Vec<(String, Exploration)>, Box<dyn Error>> {
     for name in LOGS {
         let Ok(file) = File::open(data.join(format!("logs/{name}.log.gz"))) else { continue };
         let log = LaserLog::read(file)?;
-        let Ok(found) = survey(&log, &SurveyOptions::default(), |_, _| ()) else { continue };
+        let Ok((_, found)) = survey(log, &SurveyOptions::default(), |_, _| ()) else { continue };
         all.push((name.to_owned(), found.exploration()?));
     }
     all.sort_by_key(|(name, exploration)| (name != "aces", std::cmp::Reverse(exploration.travels().len())));

@@ -48,7 +48,8 @@ impl Outcome {
         let mut truth: Vec<Option<usize>> =
             found.stops.iter().map(|stop| course.place_at(stop.pose.x, stop.pose.y)).collect();
         truth.dedup(); // a robot that came straight back to a place never left it for the map
-        let surveyed = survey(&log, &SurveyOptions::default(), |_, _| ()).ok();
+        let surveyed =
+            survey(log.clone(), &SurveyOptions::default(), |_, _| ()).ok().map(|(_, survey)| survey);
         let poses: Vec<Pose> =
             surveyed.iter().flat_map(|found| &found.track.scans).map(|scan| scan.pose).collect();
         let true_poses: Vec<Pose> = log.scans.iter().map(|scan| scan.corrected).collect();

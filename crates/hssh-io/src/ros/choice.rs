@@ -45,6 +45,8 @@ pub(crate) struct Choice<'a> {
     pub(crate) laser: &'a Laser,
     pub(crate) odometry: Odometry<'a>,
     pub(crate) mount: Mount,
+    /// Whether the options say where the laser sits.
+    pub(crate) is_laser_given: bool,
     /// What was not certain.
     pub(crate) doubts: Vec<String>,
 }
@@ -85,7 +87,7 @@ pub(crate) fn choose<'a>(
     let base =
         options.base_frame.as_deref().or_else(|| odometry.child()).map(|base| base.trim_start_matches('/'));
     let mount = mount(gathered, laser, base, options, &mut doubts)?;
-    Ok(Choice { laser, odometry, mount, doubts })
+    Ok(Choice { laser, odometry, mount, is_laser_given: options.laser.is_some(), doubts })
 }
 
 /// The laser that is asked for, or the one that looks widest, of those the one with most beams and scans.

@@ -133,7 +133,8 @@ pub(crate) fn recording(gathered: &Gathered, choice: &Choice<'_>) -> Result<Reco
             odometry.clear();
         }
     }
-    Ok(Recording { scans, odometry, laser: choice.mount.at, warnings })
+    let Choice { mount, is_laser_given, .. } = *choice;
+    Ok(Recording { scans, odometry, laser: mount.at, is_laser_given, warnings })
 }
 
 fn span(odometry: &[TimedPose]) -> Option<[f64; 2]> {

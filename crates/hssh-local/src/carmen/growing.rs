@@ -3,13 +3,12 @@
 use std::io::Read;
 
 use super::error::{LogError, LogWarning};
-use super::log::{LaserLog, LoggedScan};
+use super::log::LaserLog;
 use super::message::Message;
 use super::mount::LaserMount;
 use super::position::LogPosition;
-use super::raw::{self, RawLog, RawScan};
+use super::raw::RawLog;
 use super::reader::LogReader;
-use crate::scan::Scan;
 
 /// The messages of a log in order, as far as they have come.
 #[derive(Clone)]
@@ -42,12 +41,13 @@ impl GrowingLog {
         self.raw.scans.len()
     }
 
-    /// The log as if it ended here.
+    /// The log as if it ended here, without the doubts that only a whole log is worth: whether the laser looks as wide and where it is
+    /// taken to look.
     ///
     /// # Errors
     /// If it has no usable scan, or if hardly a beam came back.
     pub fn log(&self) -> Result<LaserLog, LogError> {
-        self.clone().into_log()
+        self.clone().made(false)
     }
 
     /// The log, which is whole.
@@ -55,6 +55,10 @@ impl GrowingLog {
     /// # Errors
     /// If it has no usable scan, or if hardly a beam came back.
     pub fn into_log(self) -> Result<LaserLog, LogError> {
+        self.made(true)
+    }
+
+    fn made(self, is_whole: bool) -> Result<LaserLog, LogError> {
         let GrowingLog { mut raw, known, lines, mut warnings } = self;
         if raw.scans.is_empty() {
             return Err(raw.why_useless(lines, warnings));
@@ -63,28 +67,17 @@ impl GrowingLog {
         raw.keep_usual_scans(&mut warnings);
         raw.tell_odd_beams(&mut warnings);
         let (view, turn, is_told) = raw.view(&known);
-        raw.check_view(view, is_told, &mut warnings);
+        if is_whole {
+            raw.check_view(view, is_told, &mut warnings);
+        }
         raw.move_to_laser(&known, &mut warnings);
         raw.bridge_jumps(&mut warnings);
         let max_range = raw.limit(&mut warnings)?;
-        let is_facing_unclear = raw.check_facing(view, max_range, &mut warnings);
+        let is_facing_unclear = is_whole && raw.check_facing(view, max_range, &mut warnings);
         warnings.sort_by_key(LogWarning::position);
-        let logged = |scan: RawScan| LoggedScan {
-            scan: Scan { ranges: raw::came_back(scan.ranges, max_range), view, turn },
-            odometry: raw.trajectory[scan.moment].pose,
-            moment: scan.moment,
-            corrected: scan.corrected,
-            at: scan.at,
-            time: scan.time,
-        };
-        Ok(LaserLog {
-            scans: raw.scans.into_iter().map(logged).collect(),
-            trajectory: raw.trajectory.into_iter().map(|moment| moment.pose).collect(),
-            max_range,
-            skipped: raw.skipped,
-            is_facing_unclear,
-            warnings,
-        })
+        let geometry = std::iter::repeat((view, turn));
+        let is_laser_given = known.pose.is_some();
+        Ok(LaserLog { is_facing_unclear, is_laser_given, ..raw.into_log(geometry, max_range, warnings) })
     }
 }
 

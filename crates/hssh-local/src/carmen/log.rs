@@ -6,6 +6,7 @@ use hssh_metrics::Pose;
 
 use super::error::LogWarning;
 use super::position::LogPosition;
+use super::turn::LaserTurn;
 use crate::scan::Scan;
 
 /// A scan and where it was taken.
@@ -41,6 +42,10 @@ pub struct LaserLog {
     /// Whether the robot drove straight on, and nothing that it saw there tells whether its laser looks ahead, as is taken for
     /// granted, or back.
     pub is_facing_unclear: bool,
+    /// Whether who read the log said where its laser sits: what scans show does not count against that.
+    pub is_laser_given: bool,
+    /// By how much the odometry was turned with the laser, because scans show it; `None` if it is as the log has it.
+    pub laser_turn: Option<LaserTurn>,
     /// What was passed over.
     pub warnings: Vec<LogWarning>,
 }
@@ -52,6 +57,20 @@ impl LaserLog {
         let scans = self.scans[..scans.min(self.scans.len())].to_vec();
         let moments = scans.last().map_or(0, |last| last.moment + 1);
         LaserLog { scans, trajectory: self.trajectory[..moments].to_vec(), ..self.clone() }
+    }
+
+    /// The log with its odometry taken to be that of a laser that is turned so much on the robot.
+    #[must_use]
+    pub fn turned(mut self, turn: LaserTurn) -> Self {
+        let by = Pose::new(0.0, 0.0, turn.angle);
+        for pose in &mut self.trajectory {
+            *pose = pose.compose(by);
+        }
+        for scan in &mut self.scans {
+            scan.odometry = scan.odometry.compose(by);
+        }
+        self.laser_turn = Some(turn);
+        self
     }
 
     /// Number of beams of a scan.

@@ -23,6 +23,7 @@ mod mount;
 mod position;
 mod raw;
 mod reader;
+mod turn;
 mod view;
 
 pub use error::{LogError, LogWarning, MessageProblem};
@@ -31,5 +32,6 @@ pub use log::{LaserLog, LoggedScan};
 pub use message::{LaserKind, LaserMessage, LaserView, Message};
 pub use mount::LaserMount;
 pub use position::LogPosition;
-pub(crate) use raw::{Moment, RawLog, RawScan, came_back};
+pub(crate) use raw::{Moment, RawLog, RawScan};
 pub use reader::LogReader;
+pub use turn::LaserTurn;

@@ -5,8 +5,10 @@ use std::collections::{BTreeMap, BTreeSet};
 use hssh_metrics::Pose;
 
 use super::error::{LogError, LogWarning, MessageProblem};
+use super::log::{LaserLog, LoggedScan};
 use super::message::{LaserKind, LaserMessage, LaserView, Message};
 use super::position::LogPosition;
+use crate::scan::Scan;
 
 /// All messages of a log.
 #[derive(Clone, Default)]
@@ -141,6 +143,33 @@ impl RawLog {
         });
     }
 
+    /// The log of these messages, of whose scans it is said how each looks, view and turn in radians.
+    pub(crate) fn into_log(
+        self,
+        geometry: impl IntoIterator<Item = (f64, f64)>,
+        max_range: f64,
+        warnings: Vec<LogWarning>,
+    ) -> LaserLog {
+        let logged = |(scan, (view, turn)): (RawScan, (f64, f64))| LoggedScan {
+            scan: Scan { ranges: came_back(scan.ranges, max_range), view, turn },
+            odometry: self.trajectory[scan.moment].pose,
+            moment: scan.moment,
+            corrected: scan.corrected,
+            at: scan.at,
+            time: scan.time,
+        };
+        LaserLog {
+            scans: self.scans.into_iter().zip(geometry).map(logged).collect(),
+            trajectory: self.trajectory.iter().map(|moment| moment.pose).collect(),
+            max_range,
+            skipped: self.skipped,
+            is_facing_unclear: false,
+            is_laser_given: false,
+            laser_turn: None,
+            warnings,
+        }
+    }
+
     /// Why there is no scan to use.
     pub(super) fn why_useless(self, lines: u64, warnings: Vec<LogWarning>) -> LogError {
         if lines == 0 {
@@ -158,7 +187,7 @@ impl RawLog {
 }
 
 /// Ranges with what did not come back as infinite, which is what is not shorter than the limit, or no length.
-pub(crate) fn came_back(ranges: Vec<f64>, limit: f64) -> Vec<f64> {
+fn came_back(ranges: Vec<f64>, limit: f64) -> Vec<f64> {
     let told = |range: f64| if range > 0.0 && range < limit { range } else { f64::INFINITY };
     ranges.into_iter().map(told).collect()
 }

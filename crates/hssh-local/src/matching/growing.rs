@@ -2,6 +2,7 @@
 
 use super::options::MatchOptions;
 use super::track::{Track, Tracker};
+use super::turned::unreckoned_turn;
 use crate::carmen::LaserLog;
 
 /// A log and the robot's way through it, as far as both have come.
@@ -10,26 +11,75 @@ pub struct GrowingTrack {
     tracker: Tracker,
     log: Option<LaserLog>,
     track: Track,
+    is_outdated: bool,
 }
 
 impl GrowingTrack {
     /// Nothing yet.
     #[must_use]
     pub fn new(options: MatchOptions) -> Self {
-        GrowingTrack { options, tracker: Tracker::new(options), log: None, track: Track::default() }
+        GrowingTrack {
+            options,
+            tracker: Tracker::new(options),
+            log: None,
+            track: Track::default(),
+            is_outdated: false,
+        }
     }
 
-    /// Tracks what is new in a log. Where what came before is told otherwise now, as when only now the range limit shows, all
-    /// of it is tracked anew: the track is always that of the log.
+    /// Tracks what is new in a log. Where what came before is told otherwise now, as when only now the range limit shows, scans
+    /// before keep the poses that they have, and the track [is outdated](Self::is_outdated): it takes as long as ever to track all anew.
     pub fn follow(&mut self, log: LaserLog) {
-        if !self.log.as_ref().is_some_and(|before| begins_with(&log, before)) {
+        if let Some(before) = &self.log {
+            self.is_outdated |= !begins_with(&log, before);
+        }
+        if log.scans.len() < self.track.scans.len() {
             self.tracker = Tracker::new(self.options);
             self.track = Track::default();
+            self.is_outdated = false;
         }
         while self.track.scans.len() < log.scans.len() {
             self.track.extend(&mut self.tracker, &log);
         }
         self.log = Some(log);
+    }
+
+    /// Whether the track is another one than that of the log as a whole, for the log told its beginning otherwise when it was tracked.
+    #[must_use]
+    pub fn is_outdated(&self) -> bool {
+        self.is_outdated
+    }
+
+    /// The log tracked anew from its beginning; what [`follow`](Self::follow) is given next may be longer.
+    #[must_use]
+    pub fn anew(options: MatchOptions, log: LaserLog) -> Self {
+        let mut anew = GrowingTrack::new(options);
+        anew.follow(log);
+        anew
+    }
+
+    /// Goes on with a track that was made anew of an earlier state of the same log.
+    pub fn replace(&mut self, anew: GrowingTrack) {
+        let log = self.log.take();
+        *self = anew;
+        if let Some(log) = log {
+            self.follow(log);
+        }
+    }
+
+    /// Turns the odometry with the laser where [`track_turned`](super::track_turned) would; then the track is outdated.
+    pub fn turn_with_laser(&mut self) {
+        let turn = self.log.as_ref().and_then(|log| unreckoned_turn(log, &self.track));
+        if let (Some(turn), Some(log)) = (turn, self.log.take()) {
+            self.log = Some(log.turned(turn));
+            self.is_outdated = true;
+        }
+    }
+
+    /// How scans are matched.
+    #[must_use]
+    pub fn options(&self) -> MatchOptions {
+        self.options
     }
 
     /// The log that was followed last, if there was any.
@@ -82,7 +132,8 @@ mod tests {
 
     proptest! {
         #![proptest_config(ProptestConfig::with_cases(16))]
-        /// However a log comes, its track is that of the log as a whole; also where its limit shows only in the end.
+        /// However a log comes, its track is that of the log as a whole, or outdated where its limit shows only in the end; tracked anew it is
+        /// that again.
         #[test]
         fn the_track_is_that_of_the_log(cuts in prop::collection::vec(1_usize..40, 0..5), is_limited in any::<bool>()) {
             let log = log(40, if is_limited { 8.0 } else { 49.0 });
@@ -96,6 +147,11 @@ mod tests {
                 prop_assert_eq!(growing.track().scans.len(), cut);
             }
             growing.follow(log.clone());
+            if growing.is_outdated() {
+                prop_assert!(is_limited);
+                growing.replace(GrowingTrack::anew(MatchOptions::default(), log.beginning(30)));
+            }
+            prop_assert!(!growing.is_outdated());
             prop_assert_eq!(growing.track(), &track(&log, &MatchOptions::default(), |_| {}));
         }
     }

@@ -18,4 +18,4 @@ pub use motion::{MotionNoise, Slip};
 pub use options::MatchOptions;
 pub use scans_alone::{TimedScan, odometry_from_scans};
 pub use track::{Track, TrackedScan, Tracker, track};
-pub use turned::LaserTurn;
+pub use turned::track_turned;

@@ -1,24 +1,19 @@
 //! How the laser sits on the robot: where wheels say that it went straight ahead, scans show it going aside if it is turned.
 
-use super::track::Track;
-use crate::carmen::LaserLog;
+use super::options::MatchOptions;
+use super::track::{Track, track};
+use crate::carmen::{LaserLog, LaserTurn};
+use crate::progress::Reply;
 
 /// Stretches of the way are compared that are so long, in metres, and on which the robot turned less, in radians.
 const STRETCH: f64 = 0.5;
 const STRAIGHT: f64 = 0.05;
 /// With fewer stretches nothing is said.
 const LEAST: usize = 30;
+/// A laser that is turned more, in radians, was mounted to look elsewhere, and is warned of when its log is read.
+const MOST: f64 = 0.2;
 /// From the median of absolute deviations to the standard deviation.
 const DEVIATION: f64 = 1.4826;
-
-/// By how much the laser is turned to the left against the odometry.
-#[derive(Clone, Copy, PartialEq, Debug)]
-pub struct LaserTurn {
-    /// Radians.
-    pub angle: f64,
-    /// Its standard deviation.
-    pub sigma: f64,
-}
 
 impl LaserTurn {
     /// What a tracked log shows: the median over straight stretches of how far the direction in which the scans say that the robot
@@ -50,14 +45,27 @@ impl LaserTurn {
         let mut off: Vec<f64> = angles.iter().map(|one| (one - angle).abs()).collect();
         Some(LaserTurn { angle, sigma: DEVIATION * middle(&mut off) / count.sqrt() })
     }
+}
 
-    /// Whether it is more than a small angle and more than chance.
-    #[must_use]
-    pub fn is_clear(&self) -> bool {
-        /// Radians: half a degree.
-        const SMALL: f64 = 0.0087;
-        self.angle.abs() > SMALL.max(6.0 * self.sigma)
-    }
+/// Tracks a log as [`track`] does. Where that shows that the laser is clearly turned against the odometry, and nobody said how the laser
+/// sits, the odometry is turned with it and the log tracked once more: a degree of it leads a long track astray by metres.
+pub fn track_turned<R: Into<Reply>>(
+    log: LaserLog,
+    options: &MatchOptions,
+    mut progress: impl FnMut(usize) -> R,
+) -> (LaserLog, Track) {
+    let first = track(&log, options, &mut progress);
+    let Some(turn) = unreckoned_turn(&log, &first) else { return (log, first) };
+    let turned = log.clone().turned(turn);
+    let second = track(&turned, options, progress);
+    // Stopped on the second way, the first is worth more.
+    if second.scans.len() < first.scans.len() { (log, first) } else { (turned, second) }
+}
+
+/// By how much the laser is turned, if that is clear and neither said by anybody nor reckoned with.
+pub(super) fn unreckoned_turn(log: &LaserLog, track: &Track) -> Option<LaserTurn> {
+    let is_asked = !log.is_laser_given && log.laser_turn.is_none() && track.scans.len() == log.scans.len();
+    LaserTurn::of(log, track).filter(|turn| is_asked && turn.is_clear() && turn.angle.abs() < MOST)
 }
 
 fn middle(values: &mut [f64]) -> f64 {

@@ -1,12 +1,8 @@
 //! A laser log from a recording whose scans and odometry come by themselves, each with its own time.
 
-use std::collections::BTreeMap;
-
 use hssh_metrics::Pose;
 
-use crate::carmen::{
-    LaserKind, LaserLog, LogError, LogPosition, LogWarning, LoggedScan, Moment, RawLog, RawScan, came_back,
-};
+use crate::carmen::{LaserKind, LaserLog, LogError, LogPosition, LogWarning, Moment, RawLog, RawScan};
 use crate::matching::{TimedScan, odometry_from_scans};
 use crate::scan::Scan;
 
@@ -19,6 +15,8 @@ pub struct Recording {
     pub odometry: Vec<TimedPose>,
     /// Where the laser sits in the frame that the odometry moves, metres ahead and to the left; how it is turned is said by its scans.
     pub laser: [f64; 2],
+    /// Whether who reads it said where the laser sits.
+    pub is_laser_given: bool,
     /// What its reader has to say.
     pub warnings: Vec<LogWarning>,
 }
@@ -58,7 +56,7 @@ impl LaserLog {
     /// # Errors
     /// If there is no scan, or if hardly a beam came back.
     pub fn from_recording(recording: Recording) -> Result<Self, LogError> {
-        let Recording { scans, odometry, laser: [x, y], mut warnings } = recording;
+        let Recording { scans, odometry, laser: [x, y], is_laser_given, mut warnings } = recording;
         if scans.is_empty() {
             return Err(LogError::NothingRecorded);
         }
@@ -79,23 +77,8 @@ impl LaserLog {
         let (geometry, mut raw) = merged(scans, &odometry);
         raw.bridge_jumps(&mut warnings);
         let max_range = raw.limit(&mut warnings)?;
-        let logged = |(scan, (view, turn)): (RawScan, (f64, f64))| LoggedScan {
-            scan: Scan { ranges: came_back(scan.ranges, max_range), view, turn },
-            odometry: raw.trajectory[scan.moment].pose,
-            moment: scan.moment,
-            corrected: scan.corrected,
-            at: scan.at,
-            time: scan.time,
-        };
-        Ok(LaserLog {
-            scans: raw.scans.into_iter().zip(geometry).map(logged).collect(),
-            trajectory: raw.trajectory.into_iter().map(|moment| moment.pose).collect(),
-            max_range,
-            skipped: BTreeMap::new(),
-            // A recording says where its laser looks.
-            is_facing_unclear: false,
-            warnings,
-        })
+        // A recording says where its laser looks.
+        Ok(LaserLog { is_laser_given, ..raw.into_log(geometry, max_range, warnings) })
     }
 }
 
@@ -157,7 +140,7 @@ mod tests {
         let scan = Scan { ranges: vec![1.5, f64::INFINITY, 2.5], view: 2.0, turn: 0.5 };
         let scans = times.iter().map(|&time| RecordedScan { scan: scan.clone(), time }).collect();
         let odometry = odometry.iter().map(|&(time, x)| TimedPose { time, pose: Pose::new(x, 0.0, 0.0) });
-        Recording { scans, odometry: odometry.collect(), laser: [0.25, 0.0], warnings: Vec::new() }
+        Recording { scans, odometry: odometry.collect(), laser: [0.25, 0.0], ..Recording::default() }
     }
 
     #[test]

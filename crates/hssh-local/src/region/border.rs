@@ -7,6 +7,8 @@ use rustc_hash::FxHashSet;
 
 use super::flood::{NO_PIECE, around};
 use super::ground::Ground;
+use super::island::Islands;
+use super::options::RegionOptions;
 use crate::distance::DistanceField;
 use crate::place::gateway_at;
 use crate::skeleton::AxisPoint;
@@ -35,6 +37,8 @@ pub(super) struct Gap {
     pub(super) width: f64,
     /// Whether there is wall on both sides, and not space that was never seen.
     pub(super) is_between_walls: bool,
+    /// How large the smaller of the things is that it lies between: see [`Islands::smaller`].
+    pub(super) between: f64,
 }
 
 impl Border {
@@ -49,6 +53,12 @@ impl Border {
         self.gaps.iter().map(width).fold(0.0, f64::max)
     }
 
+    /// How large the smaller of the things is that its widest gap lies between.
+    pub(super) fn between(&self) -> f64 {
+        let widest = self.gaps.iter().max_by(|a, b| a.width.total_cmp(&b.width));
+        widest.map_or(1.0, |gap| gap.between)
+    }
+
     /// Takes in what was another border.
     pub(super) fn extend(&mut self, other: Border) {
         self.gaps.extend(other.gaps);
@@ -56,8 +66,13 @@ impl Border {
     }
 }
 
-/// All borders; walls count as shared up to a thickness.
-pub(super) fn borders(labels: &[u32], ground: &Ground, thickest: f64) -> BTreeMap<Pair, Border> {
+/// All borders.
+pub(super) fn borders(
+    labels: &[u32],
+    ground: &Ground,
+    islands: &mut Islands<'_>,
+    options: &RegionOptions,
+) -> BTreeMap<Pair, Border> {
     let field = ground.field();
     let mut borders: BTreeMap<Pair, Border> = BTreeMap::new();
     let cell = field.lattice().resolution();
@@ -70,15 +85,17 @@ pub(super) fn borders(labels: &[u32], ground: &Ground, thickest: f64) -> BTreeMa
                     .iter()
                     .max_by_key(|&&index| (field.squared_at(index as usize), std::cmp::Reverse(index)))
                     .expect("a group has a cell");
+                let ends = ends(middle as usize, field);
                 Gap {
                     cell: middle,
                     width: 2.0 * field.clearance_at(middle as usize) + cell,
-                    is_between_walls: is_between_walls(middle as usize, ground),
+                    is_between_walls: ends.is_some_and(|ends| is_between_walls(ends, ground)),
+                    between: ends.map_or(1.0, |ends| islands.smaller(ends)),
                 }
             })
             .collect();
     }
-    for (pair, cells) in walls(labels, ground, thickest) {
+    for (pair, cells) in walls(labels, ground, options.thickest_wall) {
         if let Some(border) = borders.get_mut(&pair) {
             border.wall = f64::from(cells) * cell;
         }
@@ -86,20 +103,23 @@ pub(super) fn borders(labels: &[u32], ground: &Ground, thickest: f64) -> BTreeMa
     borders
 }
 
-/// Whether there is wall at both ends of the line through a cell to the nearest obstacles on both sides.
-fn is_between_walls(index: usize, ground: &Ground) -> bool {
-    let field = ground.field();
+/// The nearest obstacles on both sides of a cell.
+fn ends(index: usize, field: &DistanceField) -> Option<[[f64; 2]; 2]> {
     let lattice = field.lattice();
     let cell = lattice.cell(index);
     let at = AxisPoint { cell, point: lattice.center(cell), clearance: field.clearance(cell) };
-    let Some(nearest) = field.nearest(cell) else { return false };
-    let [x, y] = lattice.center(nearest);
+    let [x, y] = lattice.center(field.nearest(cell)?);
     let along = (y - at.point[1]).atan2(x - at.point[0]);
-    let is_wall = |end: [f64; 2]| {
-        let reach = || (-BESIDE..=BESIDE).map(|steps| f64::from(steps) * lattice.resolution());
-        reach().any(|dx| reach().any(|dy| ground.is_wall_at([end[0] + dx, end[1] + dy])))
-    };
-    gateway_at(&at, along + FRAC_PI_2, field).line.into_iter().all(is_wall)
+    Some(gateway_at(&at, along + FRAC_PI_2, field).line)
+}
+
+/// Whether there is wall at both ends of a line across a gap.
+fn is_between_walls(ends: [[f64; 2]; 2], ground: &Ground) -> bool {
+    let cell = ground.field().lattice().resolution();
+    let reach = || (-BESIDE..=BESIDE).map(|steps| f64::from(steps) * cell);
+    let is_wall =
+        |end: [f64; 2]| reach().any(|dx| reach().any(|dy| ground.is_wall_at([end[0] + dx, end[1] + dy])));
+    ends.into_iter().all(is_wall)
 }
 
 fn pair(a: u32, b: u32) -> Pair {

@@ -23,6 +23,7 @@ impl Ground {
         let clearing = SkeletonOptions {
             unknown: options.unknown,
             clutter: options.furniture,
+            apart: options.apart,
             narrowest_passage: options.narrowest,
             ..SkeletonOptions::default()
         };
@@ -55,12 +56,6 @@ impl Ground {
         let lattice = self.grid.lattice();
         let at = lattice.cell_at(point).map(|cell| self.is_wall(lattice.index(cell)));
         at.unwrap_or(self.unknown != UnknownSpace::Unexplored)
-    }
-
-    /// Whether a robot cannot be at a point in metres.
-    pub(super) fn is_obstacle_at(&self, point: [f64; 2]) -> bool {
-        let field = self.field();
-        self.grid.lattice().cell_at(point).is_none_or(|cell| field.squared_cells(cell) == Some(0))
     }
 }
 

@@ -39,6 +39,7 @@ pub(super) fn cut_odds(border: &Border, sides: [Extent; 2], options: &CutOptions
     options.base - options.walled * open_part.ln() - options.narrow * narrowness.ln()
         + options.small * smallness.ln()
         + options.slender * slenderness.ln()
+        + options.free_standing * border.between().ln()
 }
 
 /// A border that may go, as it was when it was weighed.

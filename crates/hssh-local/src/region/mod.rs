@@ -8,6 +8,7 @@ mod border;
 mod door;
 mod flood;
 mod ground;
+mod island;
 mod kind;
 mod merge;
 mod options;

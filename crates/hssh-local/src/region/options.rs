@@ -14,6 +14,11 @@ pub struct RegionOptions {
     pub rim: f64,
     /// What stands free and is no longer and no wider than this is furniture: it parts no rooms. Default: 0.9 m.
     pub furniture: f64,
+    /// Obstacles no farther apart than this are one thing. If it is furniture in a row that is longer, it is a wall that was
+    /// seen in pieces. Default: 0.2 m.
+    pub apart: f64,
+    /// A thing is as good as the walls of the building if it is at least as long or wide as this. Default: 4 m.
+    pub island: f64,
     /// Gaps narrower than this join nothing. Default: 0.6 m.
     pub narrowest: f64,
     /// Space that is at least this part as wide as the narrower of the two spaces it lies between is no constriction.
@@ -34,48 +39,48 @@ pub struct RegionOptions {
 #[serde(default, deny_unknown_fields)]
 pub struct CutOptions {
     /// The logarithm of the odds of an opening without walls beside it, as wide as the space it opens to.
-    /// Default: −0.1.
+    /// Default: −0.05.
     pub base: f64,
-    /// The power of the part of the border that is wall. Default: 2.5.
+    /// The power of the part of the border that is wall. Default: 2.4.
     pub walled: f64,
     /// The power of how much narrower the opening is than the space on its narrower side. Default: 1.0.
     pub narrow: f64,
     /// The power by which the area of the smaller piece counts if it is smaller than [`room`](Self::room): niches
-    /// and gaps between furniture are no rooms. Default: 0.5.
+    /// and gaps between furniture are no rooms. Default: 0.35.
     pub small: f64,
-    /// The area from which on a piece is as good as a room. Default: 5 m².
+    /// The area from which on a piece is as good as a room. Default: 4.7 m².
     pub room: f64,
     /// The power by which the width of the narrower piece counts if it is narrower than
     /// [`room_width`](Self::room_width). Default: 1.2.
     pub slender: f64,
-    /// The width from which on a piece is as good as a room. Default: 1.5 m, four times the mean clearance.
+    /// The width from which on a piece is as good as a room. Default: 1.6 m, four times the mean clearance.
     pub room_width: f64,
+    /// The power by which the size of the things counts that the opening lies between, the smaller of both, if it is
+    /// less than [`island`](RegionOptions::island): what stands free in a room does not part it. Default: 0.75.
+    pub free_standing: f64,
 }
 
 /// How probably a passage has a door: the logarithm of the odds is a sum of what is measured, each times a weight.
 #[derive(Clone, Copy, PartialEq, Debug, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct DoorwayOptions {
-    /// What nothing else says. Default: −5.1.
+    /// What nothing else says. Default: −2.5.
     pub base: f64,
     /// The weight of how narrow the narrower of the two regions is, if it is narrower than
-    /// [`room_width`](Self::room_width): there are no doors between desks. Default: 6.
+    /// [`room_width`](Self::room_width): there are no doors between desks. Default: 11.
     pub room: f64,
     /// A region that is as wide as this may be a room. Default: 1.5 m, four times the mean clearance.
     pub room_width: f64,
-    /// The weight of how much of the line beyond the better end is wall. Default: 3.7.
+    /// The weight of how much of the line beyond the better end is wall. Default: 5.5.
     pub wall: f64,
-    /// The line is followed as far as this. Default: 0.8 m.
+    /// The line is followed as far as this. Default: 1.5 m.
     pub beside: f64,
     /// The wall may be off the line by this. Default: 0.1 m.
     pub tolerance: f64,
-    /// The weight of how free the way through is. Default: 3.
-    pub way: f64,
-    /// The way is looked at as far as this to both sides. Default: 0.9 m.
-    pub through: f64,
-    /// And as far as this to the left and right of its middle. Default: 0.2 m.
-    pub half_leaf: f64,
-    /// The weight of each metre that the passage is wider than [`widest_leaf`](Self::widest_leaf). Default: 8.5.
+    /// The weight of how small the smaller of the things is that it lies between, if it is smaller than
+    /// [`island`](RegionOptions::island): a leaf hangs in a wall of the building. Default: 3.2.
+    pub free_standing: f64,
+    /// The weight of each metre that the passage is wider than [`widest_leaf`](Self::widest_leaf). Default: 16.
     pub excess: f64,
     /// The widest leaf that is usual. Default: 0.95 m.
     pub widest_leaf: f64,
@@ -106,6 +111,8 @@ impl Default for RegionOptions {
             unknown: UnknownSpace::Wall,
             rim: 0.3,
             furniture: 0.9,
+            apart: 0.2,
+            island: 4.0,
             narrowest: 0.6,
             as_wide: 0.9,
             thickest_wall: 0.5,
@@ -119,13 +126,14 @@ impl Default for RegionOptions {
 impl Default for CutOptions {
     fn default() -> Self {
         CutOptions {
-            base: -0.1,
-            walled: 2.5,
+            base: -0.05,
+            walled: 2.4,
             narrow: 1.0,
-            small: 0.5,
-            room: 5.0,
+            small: 0.35,
+            room: 4.7,
             slender: 1.2,
-            room_width: 1.5,
+            room_width: 1.6,
+            free_standing: 0.75,
         }
     }
 }
@@ -133,16 +141,14 @@ impl Default for CutOptions {
 impl Default for DoorwayOptions {
     fn default() -> Self {
         DoorwayOptions {
-            base: -5.1,
-            room: 6.0,
+            base: -2.5,
+            room: 11.0,
             room_width: 1.5,
-            wall: 3.7,
-            beside: 0.8,
+            wall: 5.5,
+            beside: 1.5,
             tolerance: 0.1,
-            way: 3.0,
-            through: 0.9,
-            half_leaf: 0.2,
-            excess: 8.5,
+            free_standing: 3.2,
+            excess: 16.0,
             widest_leaf: 0.95,
         }
     }

@@ -3,6 +3,7 @@
 use super::border::{self, Border, Gap, Pair};
 use super::flood::{self, Joining, NO_PIECE, Pieces};
 use super::ground::Ground;
+use super::island::Islands;
 use super::kind::{Region, RegionNumber};
 use super::merge::{self, Extent, Merged};
 use super::options::RegionOptions;
@@ -40,7 +41,8 @@ impl RegionMap {
         let least = options.narrowest / 2.0 / grid.lattice().resolution();
         let pieces = flood::flood(field, Joining { as_wide: options.as_wide, least });
         let extents = extents(&pieces, field);
-        let borders = border::borders(&pieces.labels, &ground, options.thickest_wall);
+        let mut islands = Islands::new(&ground, options);
+        let borders = border::borders(&pieces.labels, &ground, &mut islands, options);
         let Merged { region_of, extents, borders } = merge::merged(extents, borders, &options.cut);
         let gaps = |(&pair, border): (&Pair, &'_ Border)| {
             let passable = border.gaps.iter().filter(|gap| gap.width >= options.narrowest).copied();
@@ -64,15 +66,16 @@ impl RegionMap {
             .zip(explored)
             .map(|((_, &extent), explored)| Region::new(extent, explored, &options.kind))
             .collect();
-        let passage = |&((a, b), gap): &(Pair, Gap)| {
+        let mut passage = |&((a, b), gap): &(Pair, Gap)| {
             let pair = [a, b].map(|piece| numbers[piece as usize]);
             let gateway = passage::gateway_of(&gap, pair, &labels, field);
             let narrower =
                 pair.map(|number| regions[number as usize].width).into_iter().fold(f64::MAX, f64::min);
-            let door_probability = door::door_probability(&gateway, narrower, &ground, &options.door);
+            let door_probability =
+                door::door_probability(&gateway, narrower, &ground, &mut islands, &options.door);
             Passage { regions: pair.map(RegionNumber), gateway, door_probability }
         };
-        let passages: Vec<Passage> = gaps.iter().map(passage).collect();
+        let passages: Vec<Passage> = gaps.iter().map(&mut passage).collect();
         let mut passages_of = vec![Vec::new(); regions.len()];
         for (number, passage) in passages.iter().enumerate() {
             passage.regions.iter().for_each(|region| passages_of[region.index()].push(number as u32));

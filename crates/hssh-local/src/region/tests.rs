@@ -6,6 +6,8 @@ use proptest::prelude::*;
 
 use super::border::{Border, Gap, Pair};
 use super::flood::{Joining, NO_PIECE, flood};
+use super::ground::Ground;
+use super::island::Islands;
 use super::merge::{Extent, cut_odds, merged};
 use super::{CutOptions, RegionKind, RegionMap, RegionOptions};
 use crate::distance::DistanceField;
@@ -90,6 +92,37 @@ fn furniture_and_gray_rims_part_nothing() {
     ];
     let map = regions(&floor([13.0, 8.0], &ROOMS, &furniture));
     assert_eq!((map.regions.len(), map.passages.len()), (3, 3));
+}
+
+/// A wall that a laser saw in pieces, each no longer than a chair.
+#[test]
+fn pieces_in_a_row_are_a_wall() {
+    let pieces: Vec<([f64; 4], Occupancy)> = (0..16)
+        .map(|piece| 2.8 + 0.3 * f64::from(piece))
+        .map(|from| ([6.4, from, 6.5, from + 0.2], Occupancy::Occupied))
+        .collect();
+    let halls = [[0.5, 0.5, 12.5, 2.5], [0.5, 2.7, 12.5, 7.5], [2.0, 2.5, 2.9, 2.7], [10.0, 2.5, 10.9, 2.7]];
+    assert_eq!(regions(&floor([13.0, 8.0], &halls, &[])).regions.len(), 2);
+    assert_eq!(regions(&floor([13.0, 8.0], &halls, &pieces)).regions.len(), 3);
+    // Every other one is missing: what stands so far apart are posts.
+    let posts: Vec<([f64; 4], Occupancy)> = pieces.into_iter().step_by(2).collect();
+    assert_eq!(regions(&floor([13.0, 8.0], &halls, &posts)).regions.len(), 2);
+}
+
+/// The same passage between a wall and the end of a partition, and between the wall and a cupboard that stands free.
+#[test]
+fn there_is_no_door_beside_what_stands_free() {
+    let passage = |end: f64| {
+        let map = regions(&floor(
+            [13.0, 8.0],
+            &[[0.5, 0.5, 12.5, 7.5]],
+            &[([6.0, 1.4, 6.2, end], Occupancy::Occupied)],
+        ));
+        map.passages.iter().map(|passage| passage.door_probability).fold(0.0, f64::max)
+    };
+    assert!(passage(7.5) > 0.5, "{}", passage(7.5));
+    assert!(passage(4.0) < passage(7.5), "{}", passage(4.0));
+    assert!(passage(2.6) < 0.5, "{}", passage(2.6));
 }
 
 /// Rooms without any way out, however small, and a yard without any walls.
@@ -181,6 +214,38 @@ proptest! {
         }
     }
 
+    /// Against the closure of what is no farther apart.
+    #[test]
+    fn things_are_as_large_as_all_that_hangs_together(
+        width in 8_u32..40, height in 8_u32..40, apart in 1_u32..4, wall in 4_u32..20, density in 1_u32..20,
+        noise in prop::collection::vec(0_u32..100, 40 * 40), asked in prop::collection::vec(0_usize..1600, 1..20),
+    ) {
+        let lattice = Lattice::new(width, height, 0.1, [0.0, 0.0]).unwrap();
+        let mut grid = OccupancyGrid::filled(lattice, Occupancy::Free);
+        for cell in lattice.cells().filter(|cell| noise[lattice.index(*cell)] < density) {
+            grid.set(cell, Occupancy::Occupied);
+        }
+        let options = RegionOptions {
+            furniture: 0.0,
+            apart: 0.1 * f64::from(apart),
+            island: 0.1 * f64::from(wall) - 0.05,
+            ..RegionOptions::default()
+        };
+        let ground = Ground::new(&grid, &options);
+        let obstacles: Vec<Cell> = lattice.cells().filter(|&cell| ground.is_obstacle(lattice.index(cell))).collect();
+        prop_assume!(!obstacles.is_empty());
+        let mut islands = Islands::new(&ground, &options);
+        for at in asked {
+            let cell = obstacles[at % obstacles.len()];
+            let point = lattice.center(cell);
+            let found = islands.smaller([point, point]);
+            let expected = thing(&obstacles, cell, apart, [width, height]).map_or(1.0, |cells| {
+                (0.1 * f64::from(cells) / options.island).min(1.0)
+            });
+            prop_assert!((found - expected).abs() < 1e-9, "{found} {expected}");
+        }
+    }
+
     /// Against weighing every border anew at every step.
     #[test]
     fn pieces_join_as_if_all_were_weighed_anew(
@@ -196,13 +261,34 @@ proptest! {
             let (a, b) = (a % pieces, b % pieces);
             if a != b {
                 let border = borders.entry((a.min(b), a.max(b))).or_default();
-                border.gaps.push(Gap { cell: 0, width, is_between_walls: true });
+                border.gaps.push(Gap { cell: 0, width, is_between_walls: true, between: (width / 4.0).min(1.0) });
                 border.wall += wall;
             }
         }
         let found = merged(extents.clone(), borders.clone(), &options);
         prop_assert_eq!(found.region_of, naive(extents, borders, &options));
     }
+}
+
+/// How many cells long or wide all is that hangs together with a cell; nothing if it leads beyond the map.
+fn thing(obstacles: &[Cell], start: Cell, apart: u32, [width, height]: [u32; 2]) -> Option<u32> {
+    let mut thing = vec![start];
+    let mut at = 0;
+    while at < thing.len() {
+        for &near in obstacles {
+            let is_near =
+                thing[at].column.abs_diff(near.column) <= apart && thing[at].row.abs_diff(near.row) <= apart;
+            if is_near && !thing.contains(&near) {
+                thing.push(near);
+            }
+        }
+        at += 1;
+    }
+    let extent = |of: fn(&Cell) -> u32, all: u32| {
+        let (low, high) = (thing.iter().map(of).min()?, thing.iter().map(of).max()?);
+        (low >= apart && high + apart < all).then_some(high - low + 1)
+    };
+    Some(extent(|cell| cell.column, width)?.max(extent(|cell| cell.row, height)?))
 }
 
 /// How many connected parts a set of cells has.

@@ -4,7 +4,7 @@ use proptest::prelude::*;
 
 use super::{RoadNodeKind, Roadmap, RoadmapOptions};
 use crate::grid::{Cell, Lattice, Occupancy, OccupancyGrid};
-use crate::region::{RegionMap, RegionOptions};
+use crate::region::{RegionKind, RegionMap, RegionOptions};
 
 /// A grid of 10 cm of which the rectangles (left, bottom, right, top in cells) are free.
 fn floor(width: u32, height: u32, free: &[[u32; 4]]) -> OccupancyGrid {
@@ -61,6 +61,17 @@ fn a_closed_room_is_a_place_without_a_star() {
     assert!((roadmap.places[0].center[0] - 2.0).abs() < 0.2);
 }
 
+/// A niche that is wide open to a corridor which is wider than it.
+#[test]
+fn a_place_is_in_its_region() {
+    let grid = floor(120, 70, &[[5, 5, 115, 29], [50, 31, 70, 61], [53, 29, 67, 31]]);
+    let (map, roadmap) = roadmap(&grid);
+    assert_eq!((map.regions.len(), roadmap.places.len()), (2, 2));
+    for place in &roadmap.places {
+        assert_eq!(map.region_at(place.center), Some(place.region));
+    }
+}
+
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(60))]
     /// On floors of random rectangles no way comes near to an obstacle, every way ends at its nodes, and connections are
@@ -109,6 +120,9 @@ proptest! {
             prop_assert!((length - connection.length).abs() < 1e-6);
         }
         for (number, place) in roadmap.places.iter().enumerate() {
+            // Where ways part in a passage is a place of a corridor.
+            let is_in = map.region_at(place.center) == Some(place.region);
+            prop_assert!(is_in || map.region(place.region).kind == RegionKind::Corridor);
             let at = roadmap.connections.iter().flat_map(|connection| connection.ends);
             let ends = at.filter(|(other, _)| other.index() == number).count();
             let gateways = place.star.as_ref().map_or(0, |star| star.gateways().count());

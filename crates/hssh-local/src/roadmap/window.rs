@@ -29,6 +29,8 @@ pub(super) struct Window {
     height: usize,
     /// The clearance of each cell that a robot fits into, in metres; 0 of others.
     clearance: Vec<f32>,
+    /// Which cells are in the region, and not beyond one of its passages.
+    is_own: Vec<bool>,
 }
 
 impl Window {
@@ -49,7 +51,8 @@ impl Window {
             row: (high.row + beyond).min(lattice.height() - 1),
         };
         let (width, height) = ((high.column - low.column) as usize + 1, (high.row - low.row) as usize + 1);
-        let mut window = Window { low, width, height, clearance: vec![0.0; width * height] };
+        let (clearance, is_own) = (vec![0.0; width * height], vec![false; width * height]);
+        let mut window = Window { low, width, height, clearance, is_own };
         let fits = |cell: Cell| {
             let clearance = field.clearance(cell).min(1e6);
             if clearance >= options.radius { clearance as f32 } else { 0.0 }
@@ -60,6 +63,7 @@ impl Window {
                 if map.region_of(cell) == Some(region) {
                     let position = window.position(cell);
                     window.clearance[position] = fits(cell);
+                    window.is_own[position] = true;
                 }
             }
         }
@@ -118,7 +122,7 @@ impl Window {
         })
     }
 
-    /// Positions as wide as `least` metres, so many that each such position is within `spacing` cells of one of them or
+    /// Positions in the region as wide as `least` metres, so many that each such position is within `spacing` cells of one of them or
     /// of one of those given; the widest first.
     pub(super) fn waypoints(&self, given: &[usize], spacing: usize, least: f32) -> Vec<usize> {
         // By position, the last of all that cover it, counted from 1.
@@ -129,7 +133,7 @@ impl Window {
             self.cover(position, spacing, count, &mut covered);
         }
         let mut wide: Vec<usize> =
-            (0..self.len()).filter(|&position| self.clearance[position] >= least).collect();
+            (0..self.len()).filter(|&at| self.is_own[at] && self.clearance[at] >= least).collect();
         wide.sort_by(|&a, &b| self.clearance[b].total_cmp(&self.clearance[a]).then(a.cmp(&b)));
         let mut found = Vec::new();
         for position in wide {
@@ -159,9 +163,11 @@ impl Window {
         }
     }
 
-    /// The widest position of the largest connected part, the one nearest to the middle of it where several are.
+    /// The widest position in the region, in the largest connected part, the one nearest to the middle of it where several are.
     pub(super) fn middle(&self, comfort: f64) -> Option<usize> {
-        let largest = self.parts().into_iter().max_by_key(Vec::len)?;
+        let mut parts = self.parts();
+        parts.iter_mut().for_each(|part| part.retain(|&position| self.is_own[position]));
+        let largest = parts.into_iter().max_by_key(Vec::len)?;
         let count = largest.len() as f64;
         let sum = largest
             .iter()
@@ -174,7 +180,7 @@ impl Window {
         };
         let clearance = |position: usize| f64::from(self.clearance(position)).min(comfort);
         largest.into_iter().max_by(|&a, &b| {
-            clearance(a).total_cmp(&clearance(b)).then(off(b).total_cmp(&off(a))).then(b.cmp(&a))
+            clearance(a).total_cmp(&clearance(b)).then_with(|| off(b).total_cmp(&off(a))).then(b.cmp(&a))
         })
     }
 

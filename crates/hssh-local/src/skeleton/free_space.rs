@@ -1,5 +1,6 @@
 //! Free space: where a robot fits, and how far each of its cells is from obstacles.
 
+use super::clutter::remove_clutter;
 use super::mask::Mask;
 use super::options::{SkeletonOptions, UnknownSpace};
 use crate::distance::DistanceField;
@@ -23,7 +24,8 @@ impl FreeSpace {
             Occupancy::Free => false,
         };
         let mut obstacles = Mask::new(&lattice, is_obstacle);
-        remove_clutter(&mut obstacles, (options.clutter / lattice.resolution()).round() as u32, grid);
+        let cells = |metres: f64| (metres / lattice.resolution()).round() as u32;
+        remove_clutter(&mut obstacles, cells(options.clutter), cells(options.apart));
         let is_obstacle: Vec<bool> = obstacles.in_lattice().collect();
         let field = DistanceField::new(lattice, |index| is_obstacle[index]);
         let narrowest = options.narrowest_passage / 2.0;
@@ -50,39 +52,5 @@ impl FreeSpace {
     #[must_use]
     pub fn is_empty(&self) -> bool {
         self.mask.members().next().is_none()
-    }
-}
-
-/// Takes out the connected groups of obstacles of at most `longest` cells along both axes that do not
-/// touch the border.
-fn remove_clutter(obstacles: &mut Mask, longest: u32, grid: &OccupancyGrid) {
-    let last = Cell { column: grid.lattice().width() - 1, row: grid.lattice().height() - 1 };
-    let mut is_seen = vec![false; obstacles.positions()];
-    let starts: Vec<usize> = obstacles.members().collect();
-    for start in starts {
-        if is_seen[start] {
-            continue;
-        }
-        let mut group = vec![start];
-        is_seen[start] = true;
-        let (mut low, mut high) = (obstacles.cell(start), obstacles.cell(start));
-        let mut at = 0;
-        while at < group.len() {
-            for near in obstacles.neighbors(group[at]) {
-                if !is_seen[near] {
-                    is_seen[near] = true;
-                    let Cell { column, row } = obstacles.cell(near);
-                    low = Cell { column: low.column.min(column), row: low.row.min(row) };
-                    high = Cell { column: high.column.max(column), row: high.row.max(row) };
-                    group.push(near);
-                }
-            }
-            at += 1;
-        }
-        let is_small = high.column - low.column < longest && high.row - low.row < longest;
-        let is_inside = low.column > 0 && low.row > 0 && high.column < last.column && high.row < last.row;
-        if is_small && is_inside {
-            group.into_iter().for_each(|position| obstacles.remove(position));
-        }
     }
 }

@@ -42,6 +42,16 @@ impl Mask {
         rows.flat_map(|row| row[1..row.len() - 1].iter().copied())
     }
 
+    /// A set of the same cells without any members.
+    pub(crate) fn without_members(&self) -> Self {
+        Mask { stride: self.stride, is_member: vec![false; self.is_member.len()] }
+    }
+
+    /// How many columns and rows of cells there are.
+    pub(crate) fn size(&self) -> [u32; 2] {
+        [self.stride as u32 - 2, (self.is_member.len() / self.stride) as u32 - 2]
+    }
+
     pub(crate) fn positions(&self) -> usize {
         self.is_member.len()
     }
@@ -68,6 +78,20 @@ impl Mask {
     /// The neighbors that are members, counterclockwise from the right.
     pub(crate) fn neighbors(&self, position: usize) -> impl Iterator<Item = usize> + '_ {
         self.around(position).into_iter().filter(|&near| self.is_member[near])
+    }
+
+    pub(crate) fn insert(&mut self, position: usize) {
+        self.is_member[position] = true;
+    }
+
+    /// The members no farther than so many cells along both axes, row by row.
+    pub(crate) fn within(&self, position: usize, reach: u32) -> impl Iterator<Item = usize> + '_ {
+        let (reach, stride) = (reach as usize, self.stride);
+        let (column, row) = (position % stride, position / stride);
+        let columns = column.saturating_sub(reach)..(column + reach + 1).min(stride);
+        let rows = row.saturating_sub(reach)..(row + reach + 1).min(self.is_member.len() / stride);
+        let positions = rows.flat_map(move |row| columns.clone().map(move |column| row * stride + column));
+        positions.filter(|&near| self.is_member[near])
     }
 
     /// Which neighbors are members, one bit each, counterclockwise from the right.

@@ -2,6 +2,7 @@
 //! (section 2.2.2, third definition of gateways).
 
 mod anchor;
+mod clutter;
 mod free_space;
 mod graph;
 mod lobe;

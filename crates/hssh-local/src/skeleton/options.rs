@@ -26,6 +26,9 @@ pub struct SkeletonOptions {
     /// Obstacles no longer and no wider than this are clutter and are ignored, unless they touch the
     /// border: legs of chairs, specks, cells that no beam has met. Default: 0.3 m.
     pub clutter: f64,
+    /// Clutter no farther apart than this, in a row that is longer than [`clutter`](Self::clutter), is a wall that was
+    /// seen in pieces; none is if it is 0. Default: 0.
+    pub apart: f64,
     /// Passages narrower than this are closed. Default: 0.6 m.
     pub narrowest_passage: f64,
     /// The axis follows points whose nearest obstacles are at least this far apart in direction: two
@@ -42,6 +45,7 @@ impl Default for SkeletonOptions {
         SkeletonOptions {
             unknown: UnknownSpace::Wall,
             clutter: 0.3,
+            apart: 0.0,
             narrowest_passage: 0.6,
             opening_angle: 2.0 * std::f64::consts::FRAC_PI_3,
             shallowest_branch: 1.0,

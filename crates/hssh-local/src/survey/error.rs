@@ -3,9 +3,9 @@
 use hssh_causal::ExplorationError;
 use hssh_metrics::UncertaintyError;
 
+use crate::carmen::LaserTurn;
 use crate::closing::ClosingError;
 use crate::grid::LatticeError;
-use crate::matching::LaserTurn;
 
 /// Something that a survey had to decide with little reason.
 #[derive(Clone, PartialEq, Debug, thiserror::Error)]
@@ -52,6 +52,12 @@ pub enum SurveyWarning {
          for a track goes astray by that", .0.angle.to_degrees(), .0.sigma.to_degrees()
     )]
     LaserTurned(LaserTurn),
+    /// A laser of which nobody said how it sits, and scans do.
+    #[error(
+        "the laser is turned by {:.1}° to the left (± {:.1}°) against the odometry, as straight stretches show: that is reckoned \
+         with, unless --laser-pose says how it sits", .0.angle.to_degrees(), .0.sigma.to_degrees()
+    )]
+    TurnedWithLaser(LaserTurn),
     /// Somebody stopped it.
     #[error("the survey was interrupted: it is one of the first {scans} scans, with the loops found so far")]
     Interrupted {
@@ -83,7 +89,7 @@ pub enum SurveyError {
     /// A way so long that its covariance is useless.
     #[error("the way from visit {visit} to the next cannot be measured: {problem}")]
     Motion {
-        /// The visit, counted from 1.
+        /// The visit, counted from 0.
         visit: usize,
         /// Why not.
         problem: UncertaintyError,
@@ -91,7 +97,7 @@ pub enum SurveyError {
     /// Nobody knows by which ends the robot went from one visit to the next.
     #[error("by which ways the robot went from visit {visit} to the next is not known")]
     NoWay {
-        /// The visit, counted from 1.
+        /// The visit, counted from 0.
         visit: usize,
     },
     /// The visits are no exploration.

@@ -18,7 +18,7 @@ impl Survey {
         let star_types = self.visits.iter().enumerate().map(|(index, visit)| named(index, &visit.star));
         let legs = self.visits.windows(2).zip(&self.travels);
         let travels = legs.enumerate().map(|(index, (pair, motion))| {
-            leg(index, pair, motion).ok_or(SurveyError::NoWay { visit: index + 1 })
+            leg(index, pair, motion).ok_or(SurveyError::NoWay { visit: index })
         });
         Ok(Exploration::new(star_types.collect(), StarType(0), travels.collect::<Result<_, _>>()?)?)
     }
@@ -46,7 +46,7 @@ fn leg(index: usize, pair: &[Visit], motion: &UncertainPose) -> Option<Travel> {
 /// A star under the name of its shape and the number of its visit.
 fn named(index: usize, local: &LocalStar) -> NamedStar {
     NamedStar {
-        name: format!("{} at visit {}", shape(local), index + 1),
+        name: format!("{} at visit {}", shape(local), index),
         star: local.star.clone(),
         bearings: told_apart(&local.star, local.bearings.iter().copied()),
     }

@@ -5,14 +5,14 @@ use hssh_metrics::Pose;
 
 use super::error::{SurveyError, SurveyWarning};
 use super::evidence::evidence;
-use super::lost::doubts;
+use super::lost::{doubts, turned_laser};
 use super::options::SurveyOptions;
 use super::visit::{Survey, Visit};
 use crate::carmen::LaserLog;
 use crate::closing::close_loops;
 use crate::global_map::global_map;
 use crate::local_map::LocalMapOptions;
-use crate::matching::{LaserTurn, Track, TrackedScan, track};
+use crate::matching::{Track, TrackedScan, track_turned};
 use crate::progress::Reply;
 use crate::route::route;
 
@@ -31,32 +31,30 @@ pub enum SurveyStage {
 /// odometry alone. `progress` is told how many scans each stage has done, and may stop it: then the survey is one of the
 /// scans matched so far, with the loops found so far.
 ///
+/// The log comes back as the survey takes it: up to the last scan that was matched, its odometry [turned](track_turned) with the laser.
+///
 /// # Errors
 /// If the options describe no local map, there is no place, or a way cannot be measured.
 pub fn survey<R: Into<Reply>>(
-    log: &LaserLog,
+    log: LaserLog,
     options: &SurveyOptions,
     mut progress: impl FnMut(SurveyStage, usize) -> R,
-) -> Result<Survey, SurveyError> {
+) -> Result<(LaserLog, Survey), SurveyError> {
     let mut stopped = false;
-    let track = track(log, &options.matching, |scans| {
+    let (mut log, track) = track_turned(log, &options.matching, |scans| {
         let reply = progress(SurveyStage::Tracking, scans).into();
         stopped |= reply == Reply::Stop;
         reply
     });
-    let beginning;
-    let log = if track.scans.len() < log.scans.len() {
-        beginning = log.beginning(track.scans.len());
-        &beginning
-    } else {
-        log
-    };
-    let mut survey = survey_tracked(log, track, options, &mut progress)?;
+    if track.scans.len() < log.scans.len() {
+        log = log.beginning(track.scans.len());
+    }
+    let mut survey = survey_tracked(&log, track, options, &mut progress)?;
     let is_told = |warning: &SurveyWarning| matches!(warning, SurveyWarning::Interrupted { .. });
     if stopped && !survey.warnings.iter().any(is_told) {
         survey.warnings.push(SurveyWarning::Interrupted { scans: log.scans.len() });
     }
-    Ok(survey)
+    Ok((log, survey))
 }
 
 /// Surveys a log of which every scan was tracked, as [`survey`] does.
@@ -110,8 +108,7 @@ pub fn survey_tracked<R: Into<Reply>>(
     let lost = doubts(log, &track);
     evidence.lost = lost.len();
     warnings.extend(lost);
-    let turned = LaserTurn::of(log, &track).filter(LaserTurn::is_clear);
-    warnings.extend(turned.map(SurveyWarning::LaserTurned));
+    warnings.extend(turned_laser(log, &track));
     if stopped {
         warnings.push(SurveyWarning::Interrupted { scans: log.scans.len() });
     }

@@ -1,9 +1,9 @@
-//! Where a robot was lost: its scans lie on nothing that it saw before, or it has no odometry.
+//! Where a robot was lost: its scans lie on nothing that it saw before, or it has no odometry, or its laser is turned.
 
 use hssh_metrics::Pose;
 
 use super::error::SurveyWarning;
-use crate::carmen::{LaserLog, LogWarning};
+use crate::carmen::{LaserLog, LaserTurn, LogWarning};
 use crate::matching::Track;
 
 /// Where the robot was lost: so many scans in a row, or so large a part of all, lie on nothing that was seen before; or
@@ -39,6 +39,13 @@ pub fn doubts(log: &LaserLog, track: &Track) -> Vec<SurveyWarning> {
         });
     }
     warnings
+}
+
+/// By how much the laser is turned against the odometry, if that is clear: reckoned with, or not, where somebody said how the laser sits.
+#[must_use]
+pub fn turned_laser(log: &LaserLog, track: &Track) -> Option<SurveyWarning> {
+    let doubted = || LaserTurn::of(log, track).filter(LaserTurn::is_clear).map(SurveyWarning::LaserTurned);
+    log.laser_turn.map(SurveyWarning::TurnedWithLaser).or_else(doubted)
 }
 
 #[cfg(test)]

@@ -16,7 +16,7 @@ mod visit;
 pub use error::{SurveyError, SurveyWarning};
 pub use evidence::{Evidence, PerceptionModel};
 pub use follow::{SurveyStage, survey, survey_tracked};
-pub use lost::doubts;
+pub use lost::{doubts, turned_laser};
 pub use options::SurveyOptions;
 pub use resemblance::{Resemblance, resemblance};
 pub(crate) use turn::turn;

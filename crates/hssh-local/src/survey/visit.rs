@@ -67,7 +67,7 @@ impl Survey {
             .enumerate()
             .map(|(index, pair)| {
                 travel(&pair[0], &pair[1], &track, options)
-                    .map_err(|problem| SurveyError::Motion { visit: index + 1, problem })
+                    .map_err(|problem| SurveyError::Motion { visit: index, problem })
             })
             .collect::<Result<_, _>>()?;
         Ok(Survey { visits, travels, track, closures, graph, evidence, warnings })

@@ -1,6 +1,6 @@
 //! Scan matching: it undoes the errors of odometry where walls tell, and knows where they do not.
 
-use hssh_local::{LaserLog, MatchOptions, Track, track};
+use hssh_local::{LaserLog, MatchOptions, Track, track, track_turned};
 use hssh_metrics::Pose;
 
 use crate::simulator::{Walls, around, drive, log};
@@ -50,6 +50,30 @@ fn along_a_corridor_odometry_decides() {
     let alone = odometry.distance.powi(2) * 12.6;
     assert!(variances.x > alone, "{variances} must not be less than {alone}");
     assert!(variances.z < 0.1 * odometry.heading.powi(2) * 12.6, "{variances}");
+}
+
+/// Nobody says that the laser is turned by 2°; wheels and scans together do, and what it did to the track is undone.
+#[test]
+fn a_turned_laser_is_reckoned_with() {
+    let turn = 0.035;
+    let walls =
+        around(&[[[-2.0, -1.5], [26.0, 1.5]], [[6.0, -1.5], [8.0, 8.0]], [[22.0, -1.5], [26.0, 14.0]]]);
+    let robot = drive(&[[0.0, 0.0], [24.0, 0.0], [24.0, 12.0]], 0.25);
+    let laser: Vec<Pose> = robot.iter().map(|pose| pose.compose(Pose::new(0.0, 0.0, turn))).collect();
+    let odometry: Vec<Pose> =
+        robot.iter().map(|pose| Pose::new(1.01 * pose.x, 1.01 * pose.y, pose.theta)).collect();
+    let text = log(&walls, &laser, &odometry);
+    let read = LaserLog::read(text.as_bytes()).unwrap();
+    let options = MatchOptions::default();
+    let untold = error(&track(&read, &options, |_| ()), &laser).translation().norm();
+    let (turned, found) = track_turned(read.clone(), &options, |_| ());
+    let told = error(&found, &laser).translation().norm();
+    let seen = turned.laser_turn.expect("it is clear").angle;
+    assert!((seen - turn).abs() < 0.005, "{seen}");
+    assert!(told < 0.5 * untold, "{told} {untold}");
+    // Who says how the laser sits is believed.
+    let given = LaserLog { is_laser_given: true, ..read };
+    assert_eq!(track_turned(given, &options, |_| ()).0.laser_turn, None);
 }
 
 #[test]

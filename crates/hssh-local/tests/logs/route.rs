@@ -124,7 +124,7 @@ fn surveyed(world: &World, turn: f64, bend: f64) -> Survey {
     poses = turned.chain(poses.iter().copied()).collect();
     let odometry = if bend > 0.0 { drifting(&poses, bend, 3) } else { poses.clone() };
     let text = log(&around(&world.corridors), &poses, &odometry);
-    survey(&LaserLog::read(text.as_bytes()).unwrap(), &SurveyOptions::default(), |_, _| ()).unwrap()
+    survey(LaserLog::read(text.as_bytes()).unwrap(), &SurveyOptions::default(), |_, _| ()).unwrap().1
 }
 
 /// Where a visit's place is in the building. The track's frame is that of the robot's first pose; all ways begin

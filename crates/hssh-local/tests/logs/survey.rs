@@ -9,7 +9,8 @@ use hssh_topology::Isomorphism;
 use crate::simulator::{around, drive, log};
 
 fn surveyed(text: &str) -> Result<Survey, SurveyError> {
-    survey(&LaserLog::read(text.as_bytes()).unwrap(), &SurveyOptions::default(), |_, _| ())
+    let log = LaserLog::read(text.as_bytes()).unwrap();
+    survey(log, &SurveyOptions::default(), |_, _| ()).map(|(_, survey)| survey)
 }
 
 /// Two storeys of a ladder: corridors along y = 0 and y = 24, rungs at x = 0 and x = 24, and corridors
@@ -124,7 +125,7 @@ fn the_log_of_the_aces_building_gives_its_visits() {
     };
     let file = std::fs::File::open(Path::new(&data).join("logs/aces.log.gz")).unwrap();
     let log = LaserLog::read(file).unwrap();
-    let survey = survey(&log, &SurveyOptions::default(), |_, _| ()).unwrap();
+    let (_, survey) = survey(log, &SurveyOptions::default(), |_, _| ()).unwrap();
     let ways: Vec<usize> = survey.visits.iter().map(|visit| visit.star.gateways().count()).collect();
     // N NE E SE S SW W NW N C S C W C E
     assert_eq!(ways, [3, 2, 3, 2, 3, 2, 3, 2, 3, 4, 3, 4, 3, 4, 3]);

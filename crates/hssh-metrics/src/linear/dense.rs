@@ -43,6 +43,11 @@ impl DenseFactor {
         self.0.solve(&DVector::from_column_slice(right_hand_side)).as_slice().to_vec()
     }
 
+    pub(crate) fn inverse_diagonal_blocks<const D: usize>(&self) -> Vec<SMatrix<f64, D, D>> {
+        let inverse = self.0.inverse();
+        (0..inverse.nrows()).step_by(D).map(|first| inverse.fixed_view::<D, D>(first, first).into()).collect()
+    }
+
     pub(crate) fn log_determinant(&self) -> f64 {
         let factor = self.0.l_dirty();
         (0..factor.nrows()).map(|i| 2.0 * factor[(i, i)].ln()).sum()

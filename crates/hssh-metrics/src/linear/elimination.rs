@@ -100,6 +100,15 @@ impl<const D: usize> Values<D> {
         }
     }
 
+    /// The diagonal blocks of A⁻¹, in elimination order.
+    pub(crate) fn inverse_diagonal_blocks(&self) -> Vec<SMatrix<f64, D, D>> {
+        match self {
+            Values::Simplicial(factor) => factor.inverse_diagonal_blocks(),
+            #[cfg(feature = "faer")]
+            Values::Supernodal(factor) => factor.inverse_diagonal_blocks(),
+        }
+    }
+
     /// ln |A|.
     pub(crate) fn log_determinant(&self) -> f64 {
         match self {

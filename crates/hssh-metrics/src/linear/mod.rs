@@ -77,6 +77,14 @@ impl<const D: usize> Factor<D> {
         }
     }
 
+    /// The diagonal blocks of A⁻¹.
+    pub(crate) fn inverse_diagonal_blocks(&self) -> Vec<SMatrix<f64, D, D>> {
+        match self {
+            Factor::Dense(factor) => factor.inverse_diagonal_blocks(),
+            Factor::Sparse(factor) => factor.inverse_diagonal_blocks(),
+        }
+    }
+
     /// ln |A|.
     pub(crate) fn log_determinant(&self) -> f64 {
         match self {
@@ -127,6 +135,11 @@ mod tests {
                     .map(|(a, b)| (a - b).abs())
                     .fold(0.0, f64::max);
                 assert!(difference < 1e-14, "{difference}");
+                let inverses =
+                    dense.inverse_diagonal_blocks::<2>().into_iter().zip(sparse.inverse_diagonal_blocks());
+                for (a, b) in inverses {
+                    assert!((a - b).amax() < 1e-14, "{a} {b}");
+                }
                 assert!((dense.log_determinant() - sparse.log_determinant()).abs() < 1e-9);
             }
         }

@@ -147,6 +147,44 @@ impl<const D: usize> SimplicialFactor<D> {
         }
     }
 
+    /// The diagonal blocks of A⁻¹, in elimination order (Takahashi, Fagan and Chen, 1973).
+    ///
+    /// From A⁻¹ = L⁻ᵀ L⁻¹ follows A⁻¹ L = L⁻ᵀ, whose part at and below the diagonal is known: it is that of the diagonal's
+    /// inverses. So a column of A⁻¹, at the rows that L has there, follows from later columns at rows that L has there too: the
+    /// rows of a column of L are joined among each other. It costs about what the factorization costs.
+    pub(crate) fn inverse_diagonal_blocks(&self) -> Vec<SMatrix<f64, D, D>> {
+        let Symbolic { column_starts, rows, .. } = &*self.symbolic;
+        let size = self.inverse_diagonal.len();
+        let mut diagonal = vec![SMatrix::<f64, D, D>::zeros(); size];
+        let mut below = vec![SMatrix::<f64, D, D>::zeros(); rows.len()];
+        for j in (0..size).rev() {
+            let entries = column_starts[j]..column_starts[j + 1];
+            // L_kj L_jj⁻¹ for every row k of the column.
+            let scaled: Vec<SMatrix<f64, D, D>> =
+                self.below[entries.clone()].iter().map(|block| block * self.inverse_diagonal[j]).collect();
+            let here = &rows[entries.clone()];
+            // Z_ij = −Σ Z_ik L_kj L_jj⁻¹ over the rows k of the column.
+            let mut column = vec![SMatrix::<f64, D, D>::zeros(); here.len()];
+            for (at_k, &k) in here.iter().enumerate() {
+                column[at_k] -= diagonal[k as usize] * scaled[at_k];
+                let mut at = column_starts[k as usize];
+                for (at_i, &i) in here.iter().enumerate().skip(at_k + 1) {
+                    while rows[at] != i {
+                        at += 1;
+                    }
+                    column[at_i] -= below[at] * scaled[at_k];
+                    column[at_k] -= below[at].tr_mul(&scaled[at_i]);
+                }
+            }
+            diagonal[j] = self.inverse_diagonal[j].tr_mul(&self.inverse_diagonal[j]);
+            for (block, scaled) in column.iter().zip(&scaled) {
+                diagonal[j] -= block.tr_mul(scaled);
+            }
+            below[entries].copy_from_slice(&column);
+        }
+        diagonal
+    }
+
     /// The blocks of a column below the diagonal, with their rows.
     fn column(&self, j: usize) -> impl Iterator<Item = (usize, &SMatrix<f64, D, D>)> {
         let entries = self.symbolic.column_starts[j]..self.symbolic.column_starts[j + 1];

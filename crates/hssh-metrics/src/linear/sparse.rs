@@ -97,6 +97,11 @@ impl<const D: usize> SparseFactor<D> {
         position.iter().flat_map(|&from| &ordered[from * D..][..D]).copied().collect()
     }
 
+    pub(crate) fn inverse_diagonal_blocks(&self) -> Vec<SMatrix<f64, D, D>> {
+        let ordered = self.values.inverse_diagonal_blocks();
+        self.structure.position.iter().map(|&position| ordered[position]).collect()
+    }
+
     pub(crate) fn log_determinant(&self) -> f64 {
         self.values.log_determinant()
     }
@@ -158,6 +163,9 @@ mod tests {
             let (theirs, ours) = (theirs.expect("positive definite"), ours.expect("positive definite"));
             for (x, y) in theirs.solve(&right_hand_side).iter().zip(&ours.solve(&right_hand_side)) {
                 assert!((x - y).abs() < 1e-11, "{x} {y}");
+            }
+            for (x, y) in theirs.inverse_diagonal_blocks().iter().zip(&ours.inverse_diagonal_blocks()) {
+                assert!((x - y).amax() < 1e-11, "{x} {y}");
             }
             let (x, y) = (theirs.log_determinant(), ours.log_determinant());
             assert!((x - y).abs() < 1e-12 * x.abs().max(1.0) * blocks as f64, "{x} {y}");

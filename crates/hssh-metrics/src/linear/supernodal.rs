@@ -10,7 +10,7 @@ use faer::sparse::linalg::cholesky::{
 };
 use faer::sparse::{SparseColMatRef, SymbolicSparseColMat};
 use faer::{Conj, MatMut, Par, Side};
-use nalgebra::SMatrix;
+use nalgebra::{SMatrix, SVector};
 use sprs::CsMat;
 
 use super::error::NotPositiveDefinite;
@@ -101,6 +101,21 @@ impl SupernodalFactor {
             Par::Seq,
             MemStack::new(&mut memory),
         );
+    }
+
+    /// The diagonal blocks of A⁻¹, in elimination order, by a solution for each column: such graphs are small.
+    pub(crate) fn inverse_diagonal_blocks<const D: usize>(&self) -> Vec<SMatrix<f64, D, D>> {
+        let size = self.symbolic.scalars.ncols();
+        let mut unit = vec![0.0; size];
+        let block = |first: usize| {
+            SMatrix::from_columns(&std::array::from_fn::<_, D, _>(|axis| {
+                unit.fill(0.0);
+                unit[first + axis] = 1.0;
+                self.solve_in_place(&mut unit);
+                SVector::from_column_slice(&unit[first..first + D])
+            }))
+        };
+        (0..size).step_by(D).map(block).collect()
     }
 
     /// ln |A|.

@@ -7,7 +7,7 @@ use hssh_topology::{Account, Arrival, ChartEnd, Element, Olp, PlaceId, Sight};
 use crate::reading::reader::ReadMap;
 use crate::reading::state::Passage;
 
-/// What an account takes for an error of perception. Visits are counted from 1, the start.
+/// What an account takes for an error of perception. Visits are counted from 0, the start.
 #[derive(Clone, PartialEq, Debug)]
 pub enum Correction {
     /// Ends of the place were not seen on a visit.
@@ -80,7 +80,7 @@ impl ReadMap {
         let mut corrections = Vec::new();
         let mut account = Account::begin(exploration.star(exploration.start()));
         for (index, (travel, passage)) in exploration.travels().iter().zip(&self.passages).enumerate() {
-            let visit = index + 2;
+            let visit = index + 1;
             let passed = account.passed(travel.exit, &passage.way);
             let place_of = |end: ChartEnd| self.chart.end(end).place;
             corrections.extend(

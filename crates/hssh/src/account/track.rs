@@ -93,7 +93,10 @@ impl TrackAccount {
                 let variances = whole.covariance.matrix().diagonal();
                 [0, 1, 2].map(|axis| sigma(variances[axis]))
             }),
-            laser_turn: LaserTurn::of(log, &tracked.track).map(|turn| [turn.angle, turn.sigma]),
+            laser_turn: log
+                .laser_turn
+                .or_else(|| LaserTurn::of(log, &tracked.track))
+                .map(|turn| [turn.angle, turn.sigma]),
             poses: scans.iter().enumerate().map(pose).collect(),
             warnings,
         }

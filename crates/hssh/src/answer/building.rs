@@ -77,8 +77,8 @@ impl AnsweredRegion {
 }
 
 impl AnsweredBuilding {
-    /// The building for people to read: what there is of each kind, and the regions that the robot was in, with the visits,
-    /// which people count from 1.
+    /// The building for people to read: what there is of each kind, and the regions that the robot was in, with the visits
+    /// there, counted from 0, the start.
     pub(super) fn to_text(&self, visits: &[VisitRecord]) -> String {
         let entered: Vec<usize> =
             (0..self.regions.len()).filter(|&region| self.regions[region].stays > 0).collect();
@@ -87,7 +87,7 @@ impl AnsweredBuilding {
             let region = &self.regions[number];
             let own = |(_, visit): &(usize, &VisitRecord)| visit.region == Some(number as u32);
             let own: Vec<String> =
-                (1..).zip(visits).filter(own).map(|(visit, _)| visit.to_string()).collect();
+                (0..).zip(visits).filter(own).map(|(visit, _)| visit.to_string()).collect();
             let visited = match &own[..] {
                 [] => "no visit to a place in it".to_owned(),
                 [one] => format!("visit {one}"),

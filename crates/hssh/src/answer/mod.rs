@@ -1,7 +1,7 @@
 //! One answer for all who ask: what a mapper made of an exploration or a log, as plain data to be written and read.
 //!
 //! `docs/answer-format.md` in the repository explains every field: its meaning, unit, frame and range. Places,
-//! visits, travels, scans and ends are counted from 0, sentences count as people do.
+//! visits, travels, scans and ends are counted from 0; sentences count travels, scans and lines from 1, and visits from 0, the start.
 
 mod building;
 mod certificate;

@@ -36,7 +36,7 @@ pub struct ReadingCorrection {
     /// The ends of the place.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub ends: Vec<String>,
-    /// For people, who count from 1.
+    /// For people.
     pub sentence: String,
 }
 

@@ -121,13 +121,13 @@ impl AnswerWarning {
     }
 }
 
-/// For people, who count from 1.
+/// For people, who count lines, scans and maps from 1, and visits from 0, the start.
 impl fmt::Display for Spot {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Spot::Line(line) => write!(f, "line {line}"),
             Spot::Scan(scan) => write!(f, "scan {}", scan + 1),
-            Spot::Visit(visit) => write!(f, "visit {}", visit + 1),
+            Spot::Visit(visit) => write!(f, "visit {visit}"),
             Spot::Map(rank) => write!(f, "map {rank}"),
         }
     }

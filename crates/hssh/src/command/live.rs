@@ -12,7 +12,9 @@ use crate::arguments::LiveArguments;
 use crate::command::map;
 use crate::failure::{Failure, Status};
 use crate::input::{failed, progress_bar, warn};
-use crate::live::{Hub, Latest, PageServer, Remade, Source, Stream, follow, html, keep_mapping, lock, show};
+use crate::live::{
+    Hub, Latest, PageServer, Remade, Source, Stream, follow, html, keep_mapping, lock, renew, show,
+};
 use crate::progress::{hear_interruption, is_interrupted, keep_on_signals};
 use crate::terminal::say;
 
@@ -44,6 +46,9 @@ pub(crate) fn run(arguments: &LiveArguments) -> Result<Status, Failure> {
         failure.print();
     }
     lock(&latest).follow(incoming.into_log(file)?);
+    renew(&latest);
+    lock(&latest).turn_with_laser();
+    renew(&latest);
     let input = surveyed(arguments, &latest, &options)?;
     tell_delays(delays, &made);
     let status = map::answer(&arguments.map, &input, &options, |mapped| show(&hub, Ok((&input, mapped))))?;

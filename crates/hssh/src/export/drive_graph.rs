@@ -1,7 +1,7 @@
 //! What a robot is sent by: points and straight legs between them, the corners of ways among the points.
 
 use super::error::ExportError;
-use super::route_graph::{RouteGraph, distance};
+use super::route_graph::{Door, RouteGraph, distance};
 
 /// No two neighboring points of a way are farther apart, in metres.
 #[derive(Clone, Copy, PartialEq, Debug)]
@@ -111,6 +111,13 @@ impl<'a> DriveGraph<'a> {
         Ok(())
     }
 
+    /// The door that a leg leads through: the one of which it crosses or touches the line from post to post.
+    #[must_use]
+    pub fn door(&self, leg: &DriveLeg) -> Option<&'a Door> {
+        let [from, to] = leg.ends.map(|end| self.points[end].position);
+        self.routes.doors.iter().find(|door| meet([from, to], door.posts))
+    }
+
     /// How long a leg is, in metres.
     #[must_use]
     pub fn length(&self, leg: &DriveLeg) -> f64 {
@@ -153,4 +160,40 @@ fn subdivided(corners: &[[f64; 2]], spacing: Spacing) -> Option<Vec<[f64; 2]>> {
         line.push(pair[1]);
     }
     Some(line)
+}
+
+/// Whether two straight lines cross or touch.
+fn meet(one: [[f64; 2]; 2], other: [[f64; 2]; 2]) -> bool {
+    /// What is nearer than this touches, in metres.
+    const TOUCH: f64 = 1e-6;
+    // How far a point is to the left of a line.
+    let left = |[a, b]: [[f64; 2]; 2], point: [f64; 2]| {
+        let length = distance(a, b).max(f64::MIN_POSITIVE);
+        ((b[0] - a[0]) * (point[1] - a[1]) - (b[1] - a[1]) * (point[0] - a[0])) / length
+    };
+    let parts = |line: [[f64; 2]; 2], points: [[f64; 2]; 2]| {
+        let [a, b] = points.map(|point| left(line, point));
+        a.min(b) <= TOUCH && a.max(b) >= -TOUCH
+    };
+    let are_near = |axis: usize| {
+        let [one, other] = [one, other].map(|[a, b]| [a[axis].min(b[axis]), a[axis].max(b[axis])]);
+        one[0] <= other[1] + TOUCH && other[0] <= one[1] + TOUCH
+    };
+    parts(one, other) && parts(other, one) && (0..2).all(are_near)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn lines_meet_where_they_cross_or_touch() {
+        let door = [[0.0, -0.5], [0.0, 0.5]];
+        assert!(meet([[-1.0, 0.0], [1.0, 0.2]], door));
+        assert!(meet([[-1.0, 0.0], [0.0, 0.0]], door));
+        assert!(!meet([[-1.0, 0.0], [-0.1, 0.0]], door));
+        assert!(!meet([[-1.0, 0.6], [1.0, 0.6]], door));
+        assert!(!meet([[-1.0, 2.0], [1.0, -0.4]], door));
+        assert!(!meet([[0.0, 0.6], [0.0, 3.0]], door));
+    }
 }

@@ -77,7 +77,9 @@ pub fn export_map(
     }
     let provenance = Provenance::of_map(answer, map, reservation);
     let warnings = provenance.doubt.iter().cloned().collect();
-    let graph = RouteGraph::of_map(provenance, map)?;
+    // The building is drawn where the first map has the scans.
+    let building = answer.building.as_ref().filter(|_| chosen == 1);
+    let graph = RouteGraph::of_map(provenance, map, building)?;
     let text = match kind {
         ExportKind::Nav2 => nav2_graph(&DriveGraph::new(&graph, spacing)?),
         ExportKind::OpenRmf => open_rmf_graph(&DriveGraph::new(&graph, spacing)?),

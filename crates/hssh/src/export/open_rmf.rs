@@ -44,12 +44,11 @@ struct Door {
 const LEVEL: &str = "L1";
 
 /// A navigation graph of Open-RMF: one level, `L1`; lanes lead one way, so that there are two for each leg; doors are those passages
-/// that probably have one. Only places and passages have names, for others are not to be sent to.
+/// that probably have one, and a lane that leads through one names it. Only places and passages have names, for others are not to be sent to.
 #[must_use]
 pub fn open_rmf_graph(graph: &DriveGraph<'_>) -> String {
     let routes = graph.routes;
     let node = |point: usize| routes.nodes.get(point);
-    let door = |point: usize| node(point).filter(|node| node.door.is_some()).map(|node| node.name.as_str());
     let vertex = |(number, point): (usize, &super::DrivePoint)| {
         let called = node(number).filter(|node| node.kind != "branch");
         let name = called.map_or("", |node| &node.name);
@@ -58,15 +57,15 @@ pub fn open_rmf_graph(graph: &DriveGraph<'_>) -> String {
     };
     let lanes = graph.legs.iter().flat_map(|leg| {
         let [from, to] = leg.ends;
-        let door = door(from).or_else(|| door(to));
+        let door = graph.door(leg).map(|door| door.name.as_str());
         [[from, to], [to, from]]
             .map(|[from, to]| FlowSeq((from, to, FlowMap(Lane { door_name: door.map(DoubleQuoted) }))))
     });
     let level =
         Level { vertices: graph.points.iter().enumerate().map(vertex).collect(), lanes: lanes.collect() };
-    let doors = routes.nodes.iter().filter_map(|node| {
-        let endpoints = FlowSeq(node.door?.posts.map(|post| FlowSeq(post.map(rounded))));
-        Some((node.name.as_str(), Door { endpoints, map: LEVEL }))
+    let doors = routes.doors.iter().map(|door| {
+        let endpoints = FlowSeq(door.posts.map(|post| FlowSeq(post.map(rounded))));
+        (door.name.as_str(), Door { endpoints, map: LEVEL })
     });
     let file = NavigationGraph {
         building_name: DoubleQuoted(&routes.provenance.source),

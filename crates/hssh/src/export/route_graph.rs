@@ -4,7 +4,7 @@ use super::error::ExportError;
 use super::names::{node_names, unique};
 use super::provenance::Provenance;
 use crate::account::PlacesAccount;
-use crate::answer::{AnsweredMap, AnsweredPlace, EndReference, EndState};
+use crate::answer::{AnsweredBuilding, AnsweredMap, AnsweredPlace, EndReference, EndState};
 
 /// Places, or whatever else ways meet at, and ways; metres and radians in one frame.
 #[derive(Clone, PartialEq, Debug)]
@@ -15,6 +15,8 @@ pub struct RouteGraph {
     pub nodes: Vec<RouteNode>,
     /// The ways; each can be driven in both directions.
     pub ways: Vec<RouteWay>,
+    /// The doors, as far as they are known.
+    pub doors: Vec<Door>,
     /// The radius of the robot that the ways are for, if they are for one.
     pub radius: Option<f64>,
 }
@@ -34,13 +36,13 @@ pub struct RouteNode {
     pub star: Option<String>,
     /// Of a place: how many of its gateways were never travelled.
     pub pending: Option<u32>,
-    /// Of a passage that has one: its door.
-    pub door: Option<Door>,
 }
 
 /// A door.
-#[derive(Clone, Copy, PartialEq, Debug)]
+#[derive(Clone, PartialEq, Debug)]
 pub struct Door {
+    /// Its name; no other door has it.
+    pub name: String,
     /// Its two posts.
     pub posts: [[f64; 2]; 2],
 }
@@ -96,11 +98,15 @@ impl RouteWay {
 }
 
 impl RouteGraph {
-    /// The places and links of a topological map.
+    /// The places and links of a topological map, and the doors of the building where the map shows it.
     ///
     /// # Errors
     /// If a link leads to a place that is not there.
-    pub fn of_map(provenance: Provenance, map: &AnsweredMap) -> Result<Self, ExportError> {
+    pub fn of_map(
+        provenance: Provenance,
+        map: &AnsweredMap,
+        building: Option<&AnsweredBuilding>,
+    ) -> Result<Self, ExportError> {
         let nodes: Vec<RouteNode> = map.places.iter().enumerate().map(place).collect();
         let way = |(number, link): (usize, &crate::answer::AnsweredLink)| {
             let ends = [index(number, &link.from, &nodes)?, index(number, &link.to, &nodes)?];
@@ -109,7 +115,8 @@ impl RouteGraph {
             Ok(RouteWay { ends, gateways, line, origin, width: None })
         };
         let ways = map.links.iter().enumerate().map(way).collect::<Result<_, _>>()?;
-        Ok(RouteGraph { provenance, nodes, ways, radius: None })
+        let doors = building.map_or_else(Vec::new, doors);
+        Ok(RouteGraph { provenance, nodes, ways, doors, radius: None })
     }
 
     /// The roadmap of a grid map.
@@ -125,11 +132,6 @@ impl RouteGraph {
         let node = |(node, name): (&crate::account::RoadNodeAccount, String)| {
             let number = node.number.map(|number| number as usize);
             let place = number.filter(|_| node.kind == "place").and_then(|number| account.places.get(number));
-            let passage = number.filter(|_| node.kind == "passage");
-            let door = passage
-                .and_then(|number| account.passages.get(number))
-                .filter(|passage| passage.kind == "door")
-                .map(|passage| Door { posts: passage.gateway.line });
             RouteNode {
                 name,
                 kind: node.kind.clone(),
@@ -137,10 +139,15 @@ impl RouteGraph {
                 heading: None,
                 star: place.map(|place| place.star.clone()),
                 pending: None,
-                door,
             }
         };
         let nodes: Vec<RouteNode> = roadmap.nodes.iter().zip(names).map(node).collect();
+        let door = |(node, about): (&crate::account::RoadNodeAccount, &RouteNode)| {
+            let number = node.number.filter(|_| node.kind == "passage")?;
+            let passage = account.passages.get(number as usize).filter(|passage| passage.kind == "door")?;
+            Some(Door { name: about.name.clone(), posts: passage.gateway.line })
+        };
+        let doors = roadmap.nodes.iter().zip(&nodes).filter_map(door).collect();
         let way = |(number, way): (usize, &crate::account::WayAccount)| {
             Ok(RouteWay {
                 ends: ends(&format!("way {number}"), way.ends, nodes.len())?,
@@ -152,7 +159,7 @@ impl RouteGraph {
         };
         let ways = roadmap.ways.iter().enumerate().map(way).collect::<Result<_, _>>()?;
         let provenance = Provenance::of_places(account);
-        Ok(RouteGraph { provenance, nodes, ways, radius: Some(roadmap.radius) })
+        Ok(RouteGraph { provenance, nodes, ways, doors, radius: Some(roadmap.radius) })
     }
 
     /// The places of a grid map, and which of their ends lead to one another.
@@ -172,7 +179,6 @@ impl RouteGraph {
             heading: None,
             star: Some(place.star.clone()),
             pending: None,
-            door: None,
         };
         let nodes: Vec<RouteNode> = account.places.iter().zip(names).map(node).collect();
         let way = |(number, connection): (usize, &crate::account::ConnectionAccount)| {
@@ -186,7 +192,8 @@ impl RouteGraph {
             })
         };
         let ways = account.connections.iter().enumerate().map(way).collect::<Result<_, _>>()?;
-        Ok(RouteGraph { provenance: Provenance::of_places(account), nodes, ways, radius: None })
+        let provenance = Provenance::of_places(account);
+        Ok(RouteGraph { provenance, nodes, ways, doors: Vec::new(), radius: None })
     }
 
     /// Where a node is.
@@ -208,8 +215,13 @@ fn place((number, place): (usize, &AnsweredPlace)) -> RouteNode {
         heading: place.pose.map(|pose| pose.theta),
         star: Some(place.star.clone()),
         pending: Some(pending as u32),
-        door: None,
     }
+}
+
+/// The passages of a building that probably have a door.
+fn doors(building: &AnsweredBuilding) -> Vec<Door> {
+    let passages = building.passages.iter().enumerate().filter(|(_, passage)| passage.kind == "door");
+    passages.map(|(number, passage)| Door { name: format!("door {number}"), posts: passage.line }).collect()
 }
 
 /// The line of a link: as driven, or straight between two places.

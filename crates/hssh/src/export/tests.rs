@@ -9,7 +9,8 @@ use serde_json::Value;
 use super::route_graph::distance;
 use super::*;
 use crate::answer::{
-    AnsweredEnd, AnsweredLink, AnsweredMap, AnsweredPlace, EndReference, EndState, PlacedPose,
+    AnsweredBuilding, AnsweredEnd, AnsweredLink, AnsweredMap, AnsweredPassage, AnsweredPlace, EndReference,
+    EndState, PlacedPose,
 };
 use crate::pipeline::{Input, MappingOptions, map};
 
@@ -29,6 +30,35 @@ fn answer_with(places: Vec<AnsweredPlace>, links: Vec<AnsweredLink>) -> Answer {
     let mut answer = answer();
     answer.maps[0] = AnsweredMap { places, links, ..answer.maps[0].clone() };
     answer
+}
+
+/// Two places in a corridor ten metres apart, in a building with a door three metres along and another one beside the corridor.
+#[test]
+fn a_lane_names_the_door_that_it_leads_through() {
+    let mut answer = answer();
+    for (place, x) in answer.maps[0].places.iter_mut().zip([0.0, 10.0]) {
+        place.pose = Some(PlacedPose { x, y: 0.0, theta: 0.0, covariance: None });
+    }
+    let door = |line| AnsweredPassage {
+        kind: "door".to_owned(),
+        door_probability: 0.9,
+        regions: [0, 1],
+        width: 1.0,
+        line,
+    };
+    let passages = vec![door([[6.0, 1.0], [7.0, 1.0]]), door([[3.0, -0.5], [3.0, 0.5]])];
+    answer.building = Some(AnsweredBuilding { passages, ..AnsweredBuilding::default() });
+    let file: Value = serde_saphyr::from_str(&exported(&answer, ExportKind::OpenRmf)).unwrap();
+    assert_eq!(numbers(&file["doors"]["door 1"]["endpoints"][1]), [3.0, 0.5]);
+    let lanes = file["levels"]["L1"]["lanes"].as_array().unwrap();
+    let through: Vec<[u64; 2]> = lanes
+        .iter()
+        .filter(|lane| lane[2]["door_name"] == "door 1")
+        .map(|lane| [0, 1].map(|end| lane[end].as_u64().unwrap()))
+        .collect();
+    // The one node between is at five metres.
+    assert_eq!(through, [[0, 2], [2, 0]]);
+    assert!(lanes.iter().all(|lane| lane[2]["door_name"] != "door 0"));
 }
 
 fn coordinate() -> impl Strategy<Value = f64> {

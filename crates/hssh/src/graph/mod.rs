@@ -123,10 +123,10 @@ fn without_world(file: &GraphFile, placed: &PoseGraph) -> PoseGraph {
 
 /// The covariances of the positions of free poses, evenly chosen if there are many.
 fn covariances(graph: &PoseGraph) -> Result<Vec<(PoseId, Matrix2<f64>)>, SolveError> {
-    let marginals = Marginals::new(graph)?;
+    let covariances = Marginals::new(graph)?.covariances();
     let free: Vec<PoseId> = graph.pose_ids().filter(|&pose| !graph.is_anchored(pose)).collect();
     let stride = free.len().div_ceil(MOST_ELLIPSES).max(1);
     let chosen = free.into_iter().rev().step_by(stride); // the last pose is one of them
-    let position = |pose| marginals.covariance(pose).fixed_view::<2, 2>(0, 0).into_owned();
+    let position = |pose: PoseId| covariances[pose.index()].fixed_view::<2, 2>(0, 0).into_owned();
     Ok(chosen.map(|pose| (pose, position(pose))).collect())
 }

@@ -114,6 +114,7 @@ pub(crate) fn keep_mapping(
     let mut made = Vec::new();
     let mut mapped_to = f64::NEG_INFINITY;
     while !stop.load(Ordering::Relaxed) {
+        renew(latest);
         let Some((log, track)) = further(latest, mapped_to + every) else {
             thread::sleep(LOOK);
             continue;
@@ -127,6 +128,16 @@ pub(crate) fn keep_mapping(
         }
     }
     made
+}
+
+/// Tracks all of the log anew if its beginning is told otherwise now, beside scans that come.
+pub(crate) fn renew(latest: &Latest) {
+    let growing = lock(latest);
+    let Some(log) = growing.log().filter(|_| growing.is_outdated()).cloned() else { return };
+    let options = growing.options();
+    drop(growing);
+    let anew = GrowingTrack::anew(options, log);
+    lock(latest).replace(anew);
 }
 
 /// The log and the way through it, if that is so many metres long at least.

@@ -7,7 +7,7 @@ mod page;
 mod server;
 mod stream;
 
-pub(crate) use follow::{Latest, Remade, follow, keep_mapping, lock};
+pub(crate) use follow::{Latest, Remade, follow, keep_mapping, lock, renew};
 pub(crate) use hub::Hub;
 pub(crate) use incoming::Source;
 pub(crate) use page::{html, show};

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use hssh_causal::Exploration;
 use hssh_local::{Visit, visit_frames};
-use hssh_metrics::{Marginals, Pose, PoseGraph, PoseId};
+use hssh_metrics::{Marginals, Pose, PoseGraph};
 use hssh_topology::{MapOlp, Measure, Olp, PlaceId, Position, TopologicalMap};
 
 use super::driven::{Approaches, Drives, length};
@@ -78,10 +78,11 @@ impl Assembly<'_> {
     fn places(&self) -> Vec<AnsweredPlace> {
         let map = self.map_itself();
         let marginals = self.graph.and_then(|graph| Marginals::new(graph).ok());
+        let covariances = marginals.map(|marginals| marginals.covariances());
         let pose = |index: usize| {
             let pose = *self.graph?.poses().get(index)?;
-            let covariance = marginals.as_ref().map(|marginals| {
-                let covariance = marginals.covariance(PoseId(index as u32));
+            let covariance = covariances.as_ref().map(|covariances| {
+                let covariance = covariances[index];
                 [0, 1, 2].map(|row| [0, 1, 2].map(|column| covariance[(row, column)]))
             });
             placed(pose, covariance)

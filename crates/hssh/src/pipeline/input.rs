@@ -109,9 +109,7 @@ impl SurveyedLog {
         options: &MappingOptions,
         progress: impl FnMut(SurveyStage, usize) -> R,
     ) -> Result<Self, SurveyError> {
-        let survey = survey(&log, &options.places.along_logs(), progress)?;
-        let scans = survey.track.scans.len();
-        let log = if scans < log.scans.len() { log.beginning(scans) } else { log };
+        let (log, survey) = survey(log, &options.places.along_logs(), progress)?;
         Ok(SurveyedLog { log, survey })
     }
 

@@ -217,7 +217,7 @@ fn tell_improbable(graph: &PoseGraph, exploration: &Exploration, warnings: &mut 
     for ((travel, _), edge) in measured.zip(graph.edges()) {
         let chi2 = edge.chi2(graph.pose(edge.from), graph.pose(edge.to));
         if chi2 > IMPROBABLE {
-            let (from, to) = (travel + 1, travel + 2);
+            let (from, to) = (travel, travel + 1);
             AnswerWarning::record(
                 warnings,
                 WarningKind::ImprobableTravel,

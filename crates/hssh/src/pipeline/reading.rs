@@ -131,5 +131,5 @@ fn told(
             (CorrectionKind::TurnedBack, *visit, Some(*place), Vec::new(), sentence)
         }
     };
-    ReadingCorrection { kind, visit: visit as u64 - 1, place: place.and_then(number), ends, sentence }
+    ReadingCorrection { kind, visit: visit as u64, place: place.and_then(number), ends, sentence }
 }

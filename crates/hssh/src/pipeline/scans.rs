@@ -101,7 +101,7 @@ pub(super) fn warn_of(found: &[SurveyWarning], log: &LaserLog, warnings: &mut Ve
             SurveyWarning::Contradicted { scan, .. } => (WarningKind::ContradictedReturn, scan),
             SurveyWarning::Unconfirmed { scan, .. } => (WarningKind::UnconfirmedReturn, scan),
             SurveyWarning::Lost { first, .. } => (WarningKind::Lost, first),
-            SurveyWarning::LaserTurned(_) => (WarningKind::LaserPose, 1),
+            SurveyWarning::LaserTurned(_) | SurveyWarning::TurnedWithLaser(_) => (WarningKind::LaserPose, 1),
             SurveyWarning::NoOdometry => (WarningKind::NoOdometry, 1),
             SurveyWarning::Interrupted { scans } => (WarningKind::SurveyInterrupted, scans),
         };

@@ -1,8 +1,8 @@
 //! A laser log whose odometry is corrected from scan to scan, without places and without loops.
 
 use hssh_local::{
-    LaserLog, LaserTurn, LatticeError, MatchOptions, OccupancyGrid, Reply, SurveyWarning, Track,
-    building_map, doubts, track,
+    LaserLog, LatticeError, MatchOptions, OccupancyGrid, Reply, SurveyWarning, Track, building_map, doubts,
+    track_turned, turned_laser,
 };
 use hssh_metrics::{Edge, GraphError, Pose, PoseGraph, PoseId};
 
@@ -28,13 +28,12 @@ impl TrackedLog {
         options: &MatchOptions,
         progress: impl FnMut(usize) -> R,
     ) -> Self {
-        let track = track(&log, options, progress);
+        let (log, track) = track_turned(log, options, progress);
         let scans = track.scans.len();
         let is_whole = scans == log.scans.len();
         let log = if is_whole { log } else { log.beginning(scans) };
         let mut doubts = doubts(&log, &track);
-        let turned = LaserTurn::of(&log, &track).filter(LaserTurn::is_clear);
-        doubts.extend(turned.map(SurveyWarning::LaserTurned));
+        doubts.extend(turned_laser(&log, &track));
         if !is_whole {
             doubts.push(SurveyWarning::Interrupted { scans });
         }

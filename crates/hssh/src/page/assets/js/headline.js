@@ -28,7 +28,7 @@ function drawHeadline() {
       data.readings.corrections.length ? element("ul", {}, data.readings.corrections.map(misreadLine)) : element("p", {}, "Nothing.")));
 }
 
-// Sentences count visits as told, from 1; the button finds the one that is meant.
+// Sentences count visits as told; the button finds the one that is meant.
 function misreadLine({ sentence, visit: told, place }) {
   const { data, known } = state;
   const visit = data.visits.findIndex(one => one.told === told);
