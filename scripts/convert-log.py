@@ -4,7 +4,8 @@
     python3 scripts/convert-log.py robot.log.gz FOLDER
 
 writes FOLDER/mcap, FOLDER/mcap-file, FOLDER/db3, FOLDER/db3-file, FOLDER/db3-message (ROS 2) and FOLDER/none.bag, bz2.bag,
-lz4.bag (ROS 1). What `hssh map` answers to each is what it answers to the log; scripts/compare-bags.sh says whether it is.
+lz4.bag (ROS 1), and FOLDER/clock.log.gz: the log itself with the scans' times that the bags have, which differ where the log's clock
+stands still or goes back, as no bag's may. What `hssh map` answers to each is what it answers to that; scripts/compare-bags.sh says whether it is.
 
 A third argument adds so many messages of 1 MB of a camera, to MCAP, db3 and an unpacked .bag alone.
 
@@ -26,9 +27,9 @@ BEAMS = {180: (-90.0, 1.0), 181: (-90.0, 1.0), 360: (-90.0, 0.5), 361: (-90.0, 0
 
 
 def read(path):
-    """The messages of a log: ("scan", stamp, pose, ranges) and ("odom", stamp, pose), stamps in nanoseconds."""
+    """The messages of a log: ("scan", stamp, pose, ranges) and ("odom", stamp, pose), stamps in nanoseconds; and its lines with these stamps."""
     text = (gzip.open if path.suffix == ".gz" else open)(path, "rt")
-    messages, waiting, last = [], [], None
+    messages, waiting, last, lines = [], [], None, []
 
     def flush(until):
         first = until - 1_000_000_000 if last is None else last
@@ -37,6 +38,7 @@ def read(path):
         waiting.clear()
 
     for line in text:
+        lines.append(line)
         words = line.split()
         if words and words[0] == "FLASER":
             beams = int(words[1])
@@ -45,13 +47,15 @@ def read(path):
             stamp = int(seconds) * 1_000_000_000 + int((fraction + "0" * 9)[:9])
             if last is not None and stamp <= last:
                 stamp = last + 1_000_000  # A clock that stands still or goes back cannot say the order of the log.
+                words[2 + beams + 6] = f"{stamp // 10**9}.{stamp % 10**9:09}"
+                lines[-1] = " ".join(words) + "\n"
             flush(stamp)
             last = stamp
             messages.append(("scan", stamp, pose, [float(word) for word in words[2 : 2 + beams]]))
         elif words and words[0] == "ODOM":
             waiting.append([float(word) for word in words[1:4]])
     flush(last + 1_000_000_000)
-    return messages
+    return messages, lines
 
 
 def typed(store, messages, is_ros1):
@@ -135,7 +139,9 @@ def write(writer, store, messages, is_ros1, padding):
 def main():
     log, folder = Path(sys.argv[1]), Path(sys.argv[2])
     folder.mkdir(parents=True, exist_ok=True)
-    messages = read(log)
+    messages, lines = read(log)
+    with gzip.open(folder / "clock.log.gz", "wt") as out:
+        out.writelines(lines)
     padding = int(sys.argv[3]) if len(sys.argv) > 3 else 0
     ros2 = get_typestore(Stores.ROS2_HUMBLE)
     kinds = {
