@@ -70,8 +70,8 @@ impl GrowingTrack {
     /// Turns the odometry with the laser where [`track_turned`](super::track_turned) would; then the track is outdated.
     pub fn turn_with_laser(&mut self) {
         let turn = self.log.as_ref().and_then(|log| unreckoned_turn(log, &self.track));
-        if let (Some(turn), Some(log)) = (turn, self.log.take()) {
-            self.log = Some(log.turned(turn));
+        if let Some(turn) = turn {
+            self.log = self.log.take().map(|log| log.turned(turn));
             self.is_outdated = true;
         }
     }
@@ -151,6 +151,9 @@ mod tests {
                 prop_assert!(is_limited);
                 growing.replace(GrowingTrack::anew(MatchOptions::default(), log.beginning(30)));
             }
+            // A laser that looks where the odometry says is not turned.
+            growing.turn_with_laser();
+            prop_assert_eq!(growing.log(), Some(&log));
             prop_assert!(!growing.is_outdated());
             prop_assert_eq!(growing.track(), &track(&log, &MatchOptions::default(), |_| {}));
         }

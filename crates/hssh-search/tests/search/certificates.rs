@@ -130,7 +130,15 @@ fn what_is_not_proved_is_refused() {
     let (certificate, _) = accepted(search, &exploration).unwrap();
     let lines: Vec<&str> = certificate.lines().collect();
     let mut tried = 0;
+    let mut claims = 0;
     for (index, line) in lines.iter().enumerate() {
+        // Of what is said of nodes, one line in five: there are hundreds of them.
+        if line.starts_with("o ") || line.starts_with("f ") {
+            claims += 1;
+            if claims % 5 > 0 {
+                continue;
+            }
+        }
         let forged = match line.split_once(' ') {
             Some(("o", bound)) => format!("o {:?}", bound.parse::<f64>().unwrap() + 25.0),
             Some(("f", cost)) => format!("f {:?}", cost.parse::<f64>().unwrap() + 0.01),
