@@ -163,7 +163,7 @@ impl PyLog {
         let scans = ranges.into_iter().zip(&times).map(scan).collect();
         let odometry = odometry.unwrap_or_default().into_iter().zip(&times);
         let odometry = odometry.map(|(robot, &time)| TimedPose { time, pose: pose(robot) }).collect();
-        let recording = Recording { scans, odometry, laser: laser_pose, warnings: Vec::new() };
+        let recording = Recording { scans, odometry, laser: laser_pose, ..Recording::default() };
         let log = finished(py, |_| LaserLog::from_recording(recording))?;
         let log = log.map_err(|problem| error(Kind::Format, problem))?;
         Ok(PyLog { log: Arc::new(log), name: name.to_owned(), used: Vec::new() })
