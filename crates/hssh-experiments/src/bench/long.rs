@@ -2,7 +2,7 @@
 
 use std::error::Error;
 use std::process::Command;
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 use hssh_causal::Exploration;
 use hssh_search::{Limits, Mapper, Order, PosteriorModel};
@@ -79,6 +79,7 @@ pub(crate) fn measure(flags: &flags::Measure) -> Result<(), Box<dyn Error>> {
         _ => Limits { time: Some(Duration::from_secs(seconds.parse()?)), ..Limits::default() },
     };
     let model = PosteriorModel::evidence(&exploration).ok_or("no distance was measured")?;
+    let started = Instant::now();
     let mapper = Mapper::builder()
         .posterior(model)
         .order(Order::Cyclic)
@@ -88,7 +89,7 @@ pub(crate) fn measure(flags: &flags::Measure) -> Result<(), Box<dyn Error>> {
         .explain(&exploration)?;
     let (report, _) = mapper.answer(1);
     let measurement = Measurement {
-        seconds: report.seconds,
+        seconds: started.elapsed().as_secs_f64(),
         expanded: report.expanded,
         peak_bytes: Usage::now()?.peak_bytes,
         stop: report.stop.to_string(),
