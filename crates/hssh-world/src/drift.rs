@@ -70,6 +70,19 @@ impl OdometryNoise for DriftModel {
 }
 
 impl DriftModel {
+    /// The model with every standard deviation so many times as large.
+    #[must_use]
+    pub fn scaled(&self, factor: f64) -> Self {
+        let DriftModel { distance, heading, turn, position_fix, heading_fix } = *self;
+        DriftModel {
+            distance: factor * distance,
+            heading: factor * heading,
+            turn: factor * turn,
+            position_fix: factor * position_fix,
+            heading_fix: factor * heading_fix,
+        }
+    }
+
     /// All causes of error, to first order, as they show in the arrival pose.
     fn sources(&self, turn: f64, way: &[Point]) -> Vec<Source> {
         let end = way[way.len() - 1];

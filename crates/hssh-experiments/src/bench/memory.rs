@@ -67,17 +67,7 @@ impl Case {
         let world = grid(self.side, self.side, 8.0)?;
         let route = world.route_through(&snake(self.side, self.side))?;
         let exploration = match self.noise {
-            Some(noise) => {
-                let usual = DriftModel::default();
-                let drift = DriftModel {
-                    distance: noise * usual.distance,
-                    heading: noise * usual.heading,
-                    turn: noise * usual.turn,
-                    position_fix: noise * usual.position_fix,
-                    heading_fix: noise * usual.heading_fix,
-                };
-                world.explore_with_odometry(&route, &drift, 3)?
-            }
+            Some(noise) => world.explore_with_odometry(&route, &DriftModel::default().scaled(noise), 3)?,
             None => world.explore(&route)?,
         };
         std::fs::write(&walk, exploration.to_ron())?;

@@ -18,15 +18,7 @@ fn planar() -> Axioms {
 fn snake_in_grid(rows: u32, columns: u32, noise: f64, seed: u64) -> Exploration {
     let world = grid(rows, columns, 8.0).unwrap();
     let route = world.route_through(&snake(rows, columns)).unwrap();
-    let usual = DriftModel::default();
-    let drift = DriftModel {
-        distance: noise * usual.distance,
-        heading: noise * usual.heading,
-        turn: noise * usual.turn,
-        position_fix: noise * usual.position_fix,
-        heading_fix: noise * usual.heading_fix,
-    };
-    world.explore_with_odometry(&route, &drift, seed).unwrap()
+    world.explore_with_odometry(&route, &DriftModel::default().scaled(noise), seed).unwrap()
 }
 
 /// With a proof of the most probable map.

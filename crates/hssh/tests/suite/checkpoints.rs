@@ -1,37 +1,17 @@
 //! A search that was killed goes on from its checkpoint, and ends with the answer of one that was not.
 #![cfg(unix)]
 
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::process::{Command, Stdio};
 use std::thread::sleep;
 use std::time::{Duration, Instant};
 
-use hssh::world::{DriftModel, grid, snake};
 use serde_json::Value;
 
-use super::common::{hssh, root, scratch, text};
+use super::common::{hssh, root, scratch, snake_walk, text, untimed};
 
 /// How often each search is killed.
 const KILLS: u32 = 20;
-
-fn walk(name: &str, side: u32, measured: bool) -> PathBuf {
-    let world = grid(side, side, 8.0).unwrap();
-    let route = world.route_through(&snake(side, side)).unwrap();
-    let walk = match measured {
-        true => world.explore_with_odometry(&route, &DriftModel::default(), 3).unwrap(),
-        false => world.explore(&route).unwrap(),
-    };
-    let file = scratch("checkpoints").join(name);
-    std::fs::write(&file, walk.to_ron()).unwrap();
-    file
-}
-
-/// The answer without the time that it took.
-fn answer(stdout: &[u8]) -> Value {
-    let mut answer: Value = serde_json::from_slice(stdout).unwrap();
-    answer["search"]["seconds"] = Value::Null;
-    answer
-}
 
 /// Kills a search with SIGKILL at moments that are anywhere, and begins again with the same command each time.
 fn killed(arguments: &[&str], checkpoint: &Path, whole: Duration) -> Value {
@@ -54,11 +34,11 @@ fn killed(arguments: &[&str], checkpoint: &Path, whole: Duration) -> Value {
     let output = hssh(arguments);
     assert_eq!(output.status.code(), Some(0), "{}", text(&output.stderr));
     assert!(!checkpoint.exists(), "what came to its end leaves no checkpoint");
-    answer(&output.stdout)
+    untimed(&output.stdout)
 }
 
 fn survives_kills(name: &str, side: u32, measured: bool, search: &[&str]) {
-    let file = walk(&format!("{name}.ron"), side, measured);
+    let file = snake_walk("checkpoints", &format!("{name}.ron"), side, measured);
     let checkpoint = scratch("checkpoints").join(format!("{name}.checkpoint"));
     let [file, kept] = [&file, &checkpoint].map(|file| file.to_str().unwrap());
     let arguments = [&["map", file, "--json"], search].concat();
@@ -67,7 +47,7 @@ fn survives_kills(name: &str, side: u32, measured: bool, search: &[&str]) {
     let took = started.elapsed();
     assert_eq!(whole.status.code(), Some(0), "{}", text(&whole.stderr));
     let kept = [&arguments[..], &["--checkpoint", kept, "--checkpoint-every", "0.01"]].concat();
-    assert_eq!(killed(&kept, &checkpoint, took), answer(&whole.stdout));
+    assert_eq!(killed(&kept, &checkpoint, took), untimed(&whole.stdout));
 }
 
 #[test]
@@ -87,7 +67,7 @@ fn a_search_by_posterior_goes_on_after_it_was_killed() {
 
 #[test]
 fn a_search_that_is_stopped_says_how_to_go_on() {
-    let file = walk("stopped.ron", 5, false);
+    let file = snake_walk("checkpoints", "stopped.ron", 5, false);
     let checkpoint = scratch("checkpoints").join("stopped.checkpoint");
     let _ = std::fs::remove_file(&checkpoint);
     let [file, kept] = [&file, &checkpoint].map(|file| file.to_str().unwrap());

@@ -49,3 +49,25 @@ pub(crate) fn session(arguments: &[&str]) -> String {
         output.status.code().unwrap()
     )
 }
+
+/// An answer in JSON without the time that it took.
+#[cfg(unix)]
+pub(crate) fn untimed(stdout: &[u8]) -> serde_json::Value {
+    let mut answer: serde_json::Value = serde_json::from_slice(stdout).unwrap();
+    answer["search"]["seconds"] = serde_json::Value::Null;
+    answer
+}
+
+/// Writes the walk of a robot through all places of a square grid, row by row, into a test's folder.
+#[cfg(unix)]
+pub(crate) fn snake_walk(folder: &str, name: &str, side: u32, measured: bool) -> PathBuf {
+    let world = hssh::world::grid(side, side, 8.0).unwrap();
+    let route = world.route_through(&hssh::world::snake(side, side)).unwrap();
+    let walk = match measured {
+        true => world.explore_with_odometry(&route, &hssh::world::DriftModel::default(), 3).unwrap(),
+        false => world.explore(&route).unwrap(),
+    };
+    let file = scratch(folder).join(name);
+    std::fs::write(&file, walk.to_ron()).unwrap();
+    file
+}

@@ -5,9 +5,7 @@ use std::process::{Command, Stdio};
 use std::thread::sleep;
 use std::time::Duration;
 
-use hssh::world::{grid, snake};
-
-use super::common::{root, scratch, text};
+use super::common::{root, snake_walk, text};
 
 /// MiB.
 const MOST: f64 = 100.0;
@@ -21,10 +19,7 @@ fn peak(process: u32) -> Option<f64> {
 
 #[test]
 fn a_search_that_outgrows_its_memory_takes_what_it_may_and_little_more() {
-    let world = grid(9, 9, 8.0).unwrap();
-    let walk = world.explore(&world.route_through(&snake(9, 9)).unwrap()).unwrap();
-    let file = scratch("memory").join("walk.ron");
-    std::fs::write(&file, walk.to_ron()).unwrap();
+    let file = snake_walk("memory", "walk.ron", 9, false);
     for search in ["breadth-first", "proof"] {
         let mut program = Command::new(env!("CARGO_BIN_EXE_hssh"));
         program.current_dir(root()).arg("map").arg(&file).args(["--planar", "--search", search]);

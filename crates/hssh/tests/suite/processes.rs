@@ -1,39 +1,22 @@
 //! A count that is spread over processes is the count of one, and a process that dies ends it with a word.
 #![cfg(all(unix, feature = "cluster"))]
 
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::process::{Command, Stdio};
 use std::thread::sleep;
 use std::time::{Duration, Instant};
 
-use hssh::world::{grid, snake};
-use serde_json::Value;
-
-use super::common::{hssh, root, scratch, text};
-
-fn walk(name: &str) -> PathBuf {
-    let world = grid(5, 5, 8.0).unwrap();
-    let walk = world.explore(&world.route_through(&snake(5, 5)).unwrap()).unwrap();
-    let file = scratch("processes").join(name);
-    std::fs::write(&file, walk.to_ron()).unwrap();
-    file
-}
-
-fn answer(stdout: &[u8]) -> Value {
-    let mut answer: Value = serde_json::from_slice(stdout).unwrap();
-    answer["search"]["seconds"] = Value::Null;
-    answer
-}
+use super::common::{hssh, root, scratch, snake_walk, text, untimed};
 
 const COUNT: [&str; 5] = ["--json", "--search", "count", "--planar", "--travels"];
 
 #[test]
 fn any_number_of_processes_counts_the_same() {
-    let walk = walk("same.ron");
+    let walk = snake_walk("processes", "same.ron", 5, false);
     let count = |more: &[&str]| {
         let output = hssh(&[&["map", walk.to_str().unwrap()], &COUNT[..], &["28"], more].concat());
         assert_eq!(output.status.code(), Some(0), "{}", text(&output.stderr));
-        answer(&output.stdout)
+        untimed(&output.stdout)
     };
     let alone = count(&[]);
     for workers in ["1", "2", "3"] {
@@ -57,7 +40,7 @@ fn wait_for(what: &str, is_there: impl Fn() -> bool) {
 
 #[test]
 fn a_process_that_dies_ends_the_count_and_others_go_on_from_the_checkpoint() {
-    let walk = walk("dies.ron");
+    let walk = snake_walk("processes", "dies.ron", 5, false);
     let checkpoint = scratch("processes").join("dies.checkpoint");
     let _ = std::fs::remove_file(&checkpoint);
     let [walk, kept] = [&walk, &checkpoint].map(|file| file.to_str().unwrap());
@@ -84,12 +67,12 @@ fn a_process_that_dies_ends_the_count_and_others_go_on_from_the_checkpoint() {
     let resumed = hssh(&[&spread[..], &["--workers", "2"]].concat());
     assert_eq!(resumed.status.code(), Some(0), "{}", text(&resumed.stderr));
     assert!(text(&resumed.stderr).contains("goes on from "), "{}", text(&resumed.stderr));
-    assert_eq!(answer(&resumed.stdout), answer(&hssh(&whole).stdout));
+    assert_eq!(untimed(&resumed.stdout), untimed(&hssh(&whole).stdout));
 }
 
 #[test]
 fn what_cannot_be_spread_is_refused() {
-    let walk = walk("refused.ron");
+    let walk = snake_walk("processes", "refused.ron", 5, false);
     let walk = walk.to_str().unwrap();
     let hosts = scratch("processes").join("hosts.txt");
     std::fs::write(&hosts, "127.0.0.1:1\nnowhere\n").unwrap();
