@@ -11,7 +11,7 @@ mod tours;
 use std::error::Error;
 use std::path::{Path, PathBuf};
 
-use hssh_local::{LaserLog, MatchOptions, track_turned};
+use hssh_local::{LaserLog, MatchOptions, track_calibrated};
 use hssh_metrics::Pose;
 
 use crate::bench::usage::Usage;
@@ -48,7 +48,7 @@ pub(crate) fn run(flags: &flags::Log) -> Result<(), Box<dyn Error>> {
         }
         let mapping = Mapping::of(&path).map_err(|error| format!("{name}: {error}"))?;
         let started = Usage::now()?.user_seconds;
-        let (_, tracked) = track_turned(mapping.log().clone(), &MatchOptions::default(), |_| ());
+        let (_, tracked) = track_calibrated(mapping.log().clone(), &MatchOptions::default(), |_| ());
         let tracking = Usage::now()?.user_seconds - started;
         let track: Vec<Pose> = tracked.scans.iter().map(|scan| scan.pose).collect();
         all.push(Figures::of(name, &mapping, &track));

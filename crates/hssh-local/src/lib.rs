@@ -54,7 +54,7 @@ pub use map_server::{
 };
 pub use matching::{
     GrowingTrack, MatchOptions, MotionNoise, Slip, TimedScan, Track, TrackedScan, Tracker,
-    odometry_from_scans, track, track_turned,
+    odometry_from_scans, track, track_calibrated,
 };
 pub use place::{
     DoorOptions, Gateway, GatewayOptions, GridPlace, LocalStar, Neighborhood, NeighborhoodError, OpenEnd,

@@ -54,7 +54,7 @@ impl Errors {
                 SurveyWarning::Contradicted { scan, earlier } => {
                     errors.contradicted.add(is_lost(earlier - 1, scan - 1));
                 }
-                SurveyWarning::Unconfirmed { scan, earlier } => {
+                SurveyWarning::Unconfirmed { scan, earlier } | SurveyWarning::Possible { scan, earlier } => {
                     errors.unconfirmed.add(is_lost(earlier - 1, scan - 1));
                 }
                 // Neither tells of a return.

@@ -30,6 +30,10 @@ const CLOSURE_LENGTH: f64 = 1.0;
 const MOVED: f64 = 0.1;
 /// A closure that counts less than this is contradicted: what is near it is not matched.
 const BELIEVED: f64 = 0.5;
+/// What lies no farther than this from where it is believed to be is there, in metres…
+const THERE: f64 = 1.0;
+/// …and what lies farther off than so many standard deviations is not.
+const POSSIBLE: f64 = 2.5;
 /// A closure that fits worse, in standard deviations, begins to count less.
 const KERNEL: f64 = 3.0;
 
@@ -50,6 +54,8 @@ pub struct Closure {
     /// How well the later pose was known from the earlier one before any closure here: standard deviation in metres. Where
     /// it is large, what only looks alike may be taken for the same.
     pub spread: f64,
+    /// How far the later pose was from where it was believed to be then: metres.
+    pub off: f64,
     /// By which factor it counts in the end: near 0 if the rest contradicts it.
     pub weight: f64,
 }
@@ -62,6 +68,11 @@ pub struct ClosedTrack {
     pub graph: PoseGraph,
     /// The returns that were found.
     pub closures: Vec<Closure>,
+    /// Earlier and later scans that look alike where they are believed to be, whether that was enough for a closure or not.
+    pub expected: Vec<(usize, usize)>,
+    /// Earlier and later scans that look alike and may be of one place, as far as it is known where they are, but not as they are
+    /// believed to be: they are too few or too ambiguous for a return.
+    pub possible: Vec<(usize, usize)>,
 }
 
 impl ClosedTrack {
@@ -113,6 +124,12 @@ pub fn close_loops<R: Into<Reply>>(
     closing.finish(track)
 }
 
+/// Whether a match is good enough to be one in a chain: nothing else looks like it, and it cannot be slid along a corridor, unless
+/// there was nothing else to find.
+fn is_good(found: &Match) -> bool {
+    found.is_clear && (found.slide.is_none() || found.is_expected)
+}
+
 /// An earlier submap that one may lie on.
 struct Candidate {
     /// How far off it is believed to be, in metres.
@@ -133,6 +150,8 @@ struct Closing<'a> {
     ways: Ways,
     /// By query.
     tentative: Vec<Vec<Linked>>,
+    /// By query, all that looks alike, clear or not.
+    alike: Vec<Vec<Match>>,
     accepted: Vec<Match>,
 }
 
@@ -168,8 +187,18 @@ impl<'a> Closing<'a> {
                 ways.add(ends, length, motion)?;
             }
         }
-        let tentative = vec![Vec::new(); submaps.len()];
-        Ok(Closing { options, keyframes, submaps, graph, tracked, ways, tentative, accepted: Vec::new() })
+        let (tentative, alike) = (vec![Vec::new(); submaps.len()], vec![Vec::new(); submaps.len()]);
+        Ok(Closing {
+            options,
+            keyframes,
+            submaps,
+            graph,
+            tracked,
+            ways,
+            tentative,
+            alike,
+            accepted: Vec::new(),
+        })
     }
 
     /// Where the middle of a submap is believed to be.
@@ -192,12 +221,14 @@ impl<'a> Closing<'a> {
             tried.push(reference);
             let matched =
                 find(&self.submaps, &self.keyframes, (query, reference), &window, known.across, self.options);
-            found.extend(matched.filter(|found| self.is_good(found)));
+            found.extend(matched.filter(|found| self.is_alike(found)));
             if tried.len() >= MOST_CANDIDATES {
                 break;
             }
         }
-        let unambiguous = self.unambiguous(&found);
+        let good: Vec<Match> = found.iter().filter(|found| is_good(found)).copied().collect();
+        let unambiguous = self.unambiguous(&good);
+        self.alike[query] = found;
         let pose = |submap: usize| self.pose(submap);
         let travelled = |submap: usize| self.submaps[submap].travelled;
         self.tentative[query] =
@@ -225,11 +256,9 @@ impl<'a> Closing<'a> {
         candidates
     }
 
-    /// Whether a match is good enough to be one in a chain.
-    fn is_good(&self, found: &Match) -> bool {
-        found.is_clear
-            && found.agreement >= self.options.least_agreement
-            && found.overlap >= self.options.least_overlap
+    /// Whether what two submaps show looks alike.
+    fn is_alike(&self, found: &Match) -> bool {
+        found.agreement >= self.options.least_agreement && found.overlap >= self.options.least_overlap
     }
 
     /// Of the matches of one submap those that no other one, elsewhere and nearly as good, makes doubtful.
@@ -337,12 +366,35 @@ impl<'a> Closing<'a> {
             covariance: found.relative.covariance,
             agreement: found.agreement,
             spread: found.spread,
+            off: found.off,
             weight,
         });
         let closures = closures.collect();
         let between = reweighted(&self.graph, &robust.poses, &robust.weights);
         let graph = all_scans(track, &self.keyframes, &between)?;
-        Ok(ClosedTrack { graph, closures })
+        self.graph.set_poses(robust.poses)?;
+        let (expected, possible) = self.alike();
+        Ok(ClosedTrack { graph, closures, expected, possible })
+    }
+
+    /// What looks alike: two scans each, those where it is believed to be, and those elsewhere where it may be as far as that is known.
+    fn alike(&self) -> (Vec<(usize, usize)>, Vec<(usize, usize)>) {
+        let scan = |submap: usize| self.keyframes[self.submaps[submap].middle].scan;
+        let pose = |submap: usize| self.pose(submap);
+        let (mut expected, mut possible) = (Vec::new(), Vec::new());
+        for (query, alike) in self.alike.iter().enumerate().filter(|(_, alike)| !alike.is_empty()) {
+            let known = self.ways.from(query, pose);
+            for found in alike {
+                let off = (told(found, pose).translation() - pose(query).translation()).norm();
+                let scans = (scan(found.reference), scan(query));
+                if off <= THERE {
+                    expected.push(scans);
+                } else if off < POSSIBLE * known[found.reference].across {
+                    possible.push(scans);
+                }
+            }
+        }
+        (expected, possible)
     }
 
     /// The minimum in which closures that the rest contradicts count little.

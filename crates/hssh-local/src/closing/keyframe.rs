@@ -7,7 +7,7 @@ use crate::carmen::LaserLog;
 use crate::matching::{SurfacePoint, Track, surfaces};
 
 /// Metres: what a beam hits nearer than this is kept. Far walls hold the heading, so that this is more than a submap shows.
-const REACH: f64 = 20.0;
+const REACH: f64 = 30.0;
 /// Metres between the surface points that are kept of a keyframe.
 const SPACING: f64 = 0.12;
 

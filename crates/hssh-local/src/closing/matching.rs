@@ -44,6 +44,8 @@ pub(super) struct Match {
     pub(super) is_expected: bool,
     /// How well it was known before where one is from the other: standard deviation in metres.
     pub(super) spread: f64,
+    /// How far from where it was believed to be, in metres.
+    pub(super) off: f64,
 }
 
 /// Looks for a submap in an earlier one, of which it is known where it is up to a standard deviation `spread`. `None` if it does
@@ -77,9 +79,6 @@ pub(super) fn find(
     }
     let (agreement, overlap) = agreement(one, other, fine.mean);
     let slide = slide(&cloud, &surfaces, fine.mean, options.least_crossing);
-    if slide.is_some() && !is_expected {
-        return None;
-    }
     let covariance = as_shown(&fine.covariance, slide, options.floor)?;
     let relative = UncertainPose { mean: fine.mean, covariance };
     Some(Match {
@@ -93,6 +92,7 @@ pub(super) fn find(
         is_clear,
         is_expected,
         spread,
+        off: (fine.mean.translation() - window.center.translation()).norm(),
     })
 }
 

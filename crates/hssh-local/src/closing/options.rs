@@ -11,8 +11,10 @@ pub struct ClosingOptions {
     pub stretch: f64,
     /// …and the middles are so far apart.
     pub submap_distance: f64,
-    /// What a submap shows of its surroundings: beams are cut at this length.
+    /// What a submap shows of its surroundings: beams are cut at this length…
     pub reach: f64,
+    /// …or at more where that shows little, up to this length.
+    pub farthest_reach: f64,
     /// Where the robot was less than so many metres of travel ago it is not back.
     pub least_travel: f64,
     /// How far off the estimate a pass is looked for: metres, and metres more for each metre of way between.
@@ -60,6 +62,7 @@ impl Default for ClosingOptions {
             stretch: 5.0,
             submap_distance: 2.5,
             reach: 10.0,
+            farthest_reach: 30.0,
             least_travel: 15.0,
             window: (0.6, 0.015),
             heading_window: (0.06, 0.002),

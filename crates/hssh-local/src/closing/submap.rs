@@ -1,18 +1,21 @@
 //! Submaps: what was seen along a stretch of the way, in the frame of its middle.
 
 use hssh_metrics::Pose;
-use nalgebra::{Vector2, vector};
+use nalgebra::Vector2;
 
 use super::field::Field;
 use super::keyframe::Keyframe;
 use super::options::ClosingOptions;
 use crate::carmen::LaserLog;
-use crate::grid::{Cell, LatticeError, Occupancy};
+use crate::grid::{Cell, LatticeError, Occupancy, OccupancyGrid};
 use crate::local_map::{LocalMap, LocalMapOptions};
 use crate::matching::{Cloud, SurfacePoint};
 
 /// Side of a cell, in metres.
 pub(super) const CELL: f64 = 0.1;
+
+/// Where a submap has fewer walls' cells than this, as on a lawn, it shows more of its surroundings.
+const ENOUGH: usize = 150;
 
 /// What was seen along a stretch of the way.
 pub(super) struct Submap {
@@ -40,6 +43,31 @@ pub(super) fn middles(keyframes: &[Keyframe], options: &ClosingOptions) -> Vec<u
     middles
 }
 
+/// What scans show of their surroundings up to some metres, in the frame of a pose.
+fn drawn(
+    log: &LaserLog,
+    keyframes: &[Keyframe],
+    frame: Pose,
+    reach: f64,
+    options: &ClosingOptions,
+) -> Result<OccupancyGrid, LatticeError> {
+    let side = 2.0 * (options.stretch + reach) + 2.0;
+    let local = LocalMapOptions { side, resolution: CELL, reach, ..LocalMapOptions::default() };
+    let mut map = LocalMap::new(Vector2::zeros(), local)?;
+    for keyframe in keyframes {
+        map.insert(frame.between(keyframe.tracked), &log.scans[keyframe.scan].scan);
+    }
+    Ok(map.classify())
+}
+
+/// The middles of every second cell of walls.
+fn walls(grid: &OccupancyGrid) -> Vec<Vector2<f64>> {
+    let lattice = grid.lattice();
+    let is_wall = |cell: &Cell| grid.get(*cell) == Occupancy::Occupied;
+    let every_second = lattice.cells().filter(is_wall).filter(|cell| (cell.column + cell.row) % 2 == 0);
+    every_second.map(|cell| lattice.center(cell).into()).collect()
+}
+
 impl Submap {
     /// The submap around a keyframe.
     pub(super) fn new(
@@ -51,21 +79,15 @@ impl Submap {
         let travelled = keyframes[middle].travelled;
         let first = keyframes.partition_point(|other| other.travelled < travelled - options.stretch);
         let last = keyframes.partition_point(|other| other.travelled <= travelled + options.stretch);
-        let side = 2.0 * (options.stretch + options.reach) + 2.0;
-        let defaults = LocalMapOptions::default();
-        let local = LocalMapOptions { side, resolution: CELL, reach: options.reach, ..defaults };
-        let mut map = LocalMap::new(Vector2::zeros(), local)?;
-        for keyframe in &keyframes[first..last] {
-            map.insert(keyframes[middle].tracked.between(keyframe.tracked), &log.scans[keyframe.scan].scan);
-        }
-        let grid = map.classify();
-        let lattice = *grid.lattice();
-        let mut walls: Vec<Vector2<f64>> = Vec::new();
-        let is_wall = |cell: &Cell| grid.get(*cell) == Occupancy::Occupied;
-        for cell in lattice.cells().filter(is_wall).filter(|cell| (cell.column + cell.row) % 2 == 0) {
-            let [x, y] = lattice.center(cell);
-            walls.push(vector![x, y]);
-        }
+        let mut reach = options.reach;
+        let (grid, walls) = loop {
+            let grid = drawn(log, &keyframes[first..last], keyframes[middle].tracked, reach, options)?;
+            let walls = walls(&grid);
+            if walls.len() >= ENOUGH || reach >= options.farthest_reach {
+                break (grid, walls);
+            }
+            reach = (2.0 * reach).min(options.farthest_reach);
+        };
         Ok(Submap { middle, keyframes: first..last, travelled, walls, field: Field::new(&grid) })
     }
 

@@ -12,8 +12,8 @@ const CELL: f64 = 0.1;
 const BLUR: f64 = 0.15;
 /// How much a hit off all surfaces speaks against a pose: it may be something that was not seen before.
 const OUTLIER: f64 = 0.05;
-/// Steps of the search: metres and radians.
-const STEP: (f64, f64) = (0.1, 0.02);
+/// Steps of the search: metres, which are a cell, and radians.
+const STEP: (f64, f64) = (CELL, 0.02);
 /// The most steps to each side.
 const MOST_STEPS: f64 = 12.0;
 
@@ -68,8 +68,18 @@ impl LikelihoodField {
     }
 
     fn at(&self, position: Vector2<f64>) -> f64 {
+        self.at_cell(self.cell(position), (0, 0))
+    }
+
+    /// The column and the row of the cell that a position is in.
+    fn cell(&self, position: Vector2<f64>) -> (i64, i64) {
         let at = (position - self.origin) / CELL;
-        let cell = self.index(at.x.floor() as i64, at.y.floor() as i64);
+        (at.x.floor() as i64, at.y.floor() as i64)
+    }
+
+    /// The log-likelihood so many columns and rows beside a cell.
+    fn at_cell(&self, (column, row): (i64, i64), (columns, rows): (i64, i64)) -> f64 {
+        let cell = self.index(column + columns, row + rows);
         cell.map_or(OUTLIER.ln(), |index| f64::from(self.cells[index]))
     }
 }
@@ -91,14 +101,15 @@ pub(super) fn search(
     for turn in -around..=around {
         let turned = Pose { theta: predicted.mean.theta + f64::from(turn) * STEP.1, ..predicted.mean };
         let rotation = turned.rotation();
-        let hits: Vec<Vector2<f64>> =
-            surfaces.iter().map(|surface| turned.translation() + rotation * surface.position).collect();
+        let hit = |surface: &SurfacePoint| field.cell(turned.translation() + rotation * surface.position);
+        let hits: Vec<(i64, i64)> = surfaces.iter().map(hit).collect();
         for row in -across..=across {
             for column in -across..=across {
                 let shift = vector![f64::from(column), f64::from(row)] * STEP.0;
                 let off = Vector3::new(shift.x, shift.y, f64::from(turn) * STEP.1);
                 let prior = -0.5 * off.dot(&(information.matrix() * off));
-                let fit: f64 = hits.iter().map(|hit| field.at(hit + shift)).sum();
+                let cells = (i64::from(column), i64::from(row));
+                let fit: f64 = hits.iter().map(|&hit| field.at_cell(hit, cells)).sum();
                 let score = prior + weight * fit;
                 if score > best.0 {
                     best = (score, Pose::new(turned.x + shift.x, turned.y + shift.y, turned.theta));

@@ -1,8 +1,8 @@
 //! The robot's way through a log that is still being written.
 
+use super::calibrated::calibrated;
 use super::options::MatchOptions;
 use super::track::{Track, Tracker};
-use super::turned::unreckoned_turn;
 use crate::carmen::LaserLog;
 
 /// A log and the robot's way through it, as far as both have come.
@@ -67,12 +67,12 @@ impl GrowingTrack {
         }
     }
 
-    /// Turns the odometry with the laser where [`track_turned`](super::track_turned) would; then the track is outdated.
-    pub fn turn_with_laser(&mut self) {
-        let turn = self.log.as_ref().and_then(|log| unreckoned_turn(log, &self.track));
-        if let Some(turn) = turn {
-            self.log = self.log.take().map(|log| log.turned(turn));
-            self.is_outdated = true;
+    /// Takes the odometry as [`track_calibrated`](super::track_calibrated) would; where that is otherwise than before, the track is
+    /// outdated.
+    pub fn calibrate(&mut self) {
+        let found = self.log.as_ref().and_then(|log| calibrated(log, &self.track, &self.options));
+        if let Some((log, options)) = found {
+            (self.log, self.options, self.is_outdated) = (Some(log), options, true);
         }
     }
 
@@ -152,7 +152,7 @@ mod tests {
                 growing.replace(GrowingTrack::anew(MatchOptions::default(), log.beginning(30)));
             }
             // A laser that looks where the odometry says is not turned.
-            growing.turn_with_laser();
+            growing.calibrate();
             prop_assert_eq!(growing.log(), Some(&log));
             prop_assert!(!growing.is_outdated());
             prop_assert_eq!(growing.track(), &track(&log, &MatchOptions::default(), |_| {}));

@@ -7,7 +7,9 @@ use super::motion::{MotionNoise, Slip};
 pub struct MatchOptions {
     /// How raw odometry errs.
     pub odometry: MotionNoise,
-    /// Metres: only what a beam hits nearer than this is matched.
+    /// How it errs at worst: believed of a step where the scans contradict `odometry`; `None` if that is the worst already.
+    pub worst_odometry: Option<MotionNoise>,
+    /// Metres: only what a beam hits nearer than this is matched. Far walls hold the heading.
     pub reach: f64,
     /// Metres: beams are thinned until what they hit is about this far apart.
     pub spacing: f64,
@@ -33,7 +35,8 @@ impl Default for MatchOptions {
     fn default() -> Self {
         MatchOptions {
             odometry: MotionNoise::default(),
-            reach: 20.0,
+            worst_odometry: None,
+            reach: 30.0,
             spacing: 0.08,
             hit_noise: 0.04,
             hits_per_observation: 2.0,

@@ -33,7 +33,7 @@ pub fn odometry_from_scans(scans: &[TimedScan<'_>]) -> Vec<Pose> {
     let mut poses: Vec<Pose> = Vec::with_capacity(scans.len());
     for (index, now) in scans.iter().enumerate() {
         let motion = foreseen(&scans[..=index], &poses);
-        poses.push(tracker.add_moved(now.scan, &motion).pose);
+        poses.push(tracker.add_moved(now.scan, &motion, None).pose);
     }
     poses
 }

@@ -14,6 +14,14 @@ use crate::scan::Scan;
 
 /// Of a scan that lies on nothing the hits' mean log-likelihood is below this, in nats: 0 is perfect, −3 hits nothing.
 const LOST: f64 = -1.2;
+/// The odometry of a step is taken for worse than believed if the hits' mean log-likelihood is below this…
+const SUSPICION: f64 = -0.3;
+/// …and worse odometry fits better by so many nats.
+const PRICE: f64 = 6.0;
+/// With fewer surfaces in sight, which may be people who move, odometry is not doubted.
+const MUCH: usize = 40;
+/// The coarse search goes by what was hit nearer than this, in metres.
+const COARSE_REACH: f64 = 20.0;
 /// A search this wide, in metres, is made with a part of the surfaces.
 const WIDE: f64 = 0.5;
 
@@ -79,8 +87,24 @@ impl Reference {
         for keyframe in keyframes {
             cloud.insert(keyframe.pose, &keyframe.surfaces, options.spacing / 2.0);
         }
-        let field = LikelihoodField::new(&cloud, center.translation(), options.reach);
+        let field = LikelihoodField::new(&cloud, center.translation(), options.reach.min(COARSE_REACH));
         Reference { cloud, field }
+    }
+}
+
+/// What a scan shows, in the robot's frame.
+struct Seen {
+    /// All surfaces: far ones hold the heading.
+    all: Vec<SurfacePoint>,
+    /// Those near enough for the coarse search.
+    near: Vec<SurfacePoint>,
+}
+
+impl Seen {
+    fn new(scan: &Scan, options: &MatchOptions) -> Self {
+        let all = surfaces(scan, options.reach, options.spacing);
+        let near = all.iter().filter(|surface| surface.position.norm() < COARSE_REACH).copied().collect();
+        Seen { all, near }
     }
 }
 
@@ -108,18 +132,24 @@ impl Tracker {
     /// # Panics
     /// If there is no raw pose.
     pub fn add(&mut self, scan: &Scan, odometry: &[Pose]) -> TrackedScan {
-        self.add_moved(scan, &self.options.odometry.motion(odometry))
+        let worst = self.options.worst_odometry.map(|noise| noise.motion(odometry));
+        self.add_moved(scan, &self.options.odometry.motion(odometry), worst.as_ref())
     }
 
-    /// Where the next scan was taken, of which it is known how the robot moved since the scan before.
-    pub(super) fn add_moved(&mut self, scan: &Scan, motion: &UncertainPose) -> TrackedScan {
-        let seen = surfaces(scan, self.options.reach, self.options.spacing);
+    /// Where the next scan was taken, of which it is known how the robot moved since the scan before; and how uncertain that is at worst.
+    pub(super) fn add_moved(
+        &mut self,
+        scan: &Scan,
+        motion: &UncertainPose,
+        worst: Option<&UncertainPose>,
+    ) -> TrackedScan {
+        let seen = Seen::new(scan, &self.options);
         let tracked = match &self.last {
             None => TrackedScan { pose: Pose::IDENTITY, step: None, travelled: 0.0 },
             Some(last) => {
-                let step = matched(&self.reference, &seen, last.pose, motion, &self.options);
+                let step = matched(&self.reference, &seen, last.pose, (motion, worst), &self.options);
                 let pose = last.pose.compose(step.mean);
-                self.fit = self.reference.field.fit(&seen, pose);
+                self.fit = self.reference.field.fit(&seen.near, pose);
                 TrackedScan {
                     pose,
                     step: Some(step),
@@ -129,7 +159,7 @@ impl Tracker {
         };
         if self.keyframes.back().is_none_or(|last| is_new_view(last, &tracked, &self.options)) {
             let TrackedScan { pose, travelled, .. } = tracked;
-            self.keyframes.push_back(Keyframe { pose, travelled, surfaces: filled(&seen) });
+            self.keyframes.push_back(Keyframe { pose, travelled, surfaces: filled(&seen.all) });
             self.keyframes.retain(|keyframe| travelled - keyframe.travelled <= self.options.memory);
             self.reference = Reference::new(self.keyframes.iter().rev(), pose, &self.options);
         }
@@ -163,27 +193,39 @@ pub fn track<R: Into<Reply>>(
     track
 }
 
-/// The motion since the pose `from`: coarse, then fine. Where that fits badly the wheels may have slipped.
+/// The motion since the pose `from`: coarse, then fine. Where that fits badly the odometry may be worse than believed, and where that
+/// fits badly, too, the wheels may have slipped.
 fn matched(
     reference: &Reference,
-    seen: &[SurfacePoint],
+    seen: &Seen,
     from: Pose,
-    odometry: &UncertainPose,
+    (odometry, worst): (&UncertainPose, Option<&UncertainPose>),
     options: &MatchOptions,
 ) -> UncertainPose {
-    let believed = fitted(reference, seen, from, odometry, options);
-    let fit = |step: &UncertainPose| reference.field.fit(seen, from.compose(step.mean));
-    let Some(slip) = options.slip.filter(|slip| fit(&believed) < slip.suspicion) else { return believed };
-    let slipped = fitted(reference, seen, from, &slip.widened(odometry), options);
-    let observations = seen.len() as f64 / options.hits_per_observation;
-    let gain = observations * (fit(&slipped) - fit(&believed));
-    if gain > slip.price { slipped } else { believed }
+    let fit = |step: &UncertainPose| reference.field.fit(&seen.near, from.compose(step.mean));
+    let observations = seen.near.len() as f64 / options.hits_per_observation;
+    // What is less probable has to fit better by so much.
+    let better = |believed: UncertainPose, wider: &UncertainPose, price: f64| {
+        let other = fitted(reference, seen, from, wider, options);
+        if observations * (fit(&other) - fit(&believed)) > price { other } else { believed }
+    };
+    let mut believed = fitted(reference, seen, from, odometry, options);
+    if seen.all.len() < MUCH {
+        return believed;
+    }
+    if let Some(worst) = worst.filter(|_| fit(&believed) < SUSPICION) {
+        believed = better(believed, worst, PRICE);
+    }
+    if let Some(slip) = options.slip.filter(|slip| fit(&believed) < slip.suspicion) {
+        believed = better(believed, &slip.widened(worst.unwrap_or(odometry)), slip.price);
+    }
+    believed
 }
 
 /// The motion since the pose `from` that fits surfaces and odometry best.
 fn fitted(
     reference: &Reference,
-    seen: &[SurfacePoint],
+    seen: &Seen,
     from: Pose,
     odometry: &UncertainPose,
     options: &MatchOptions,
@@ -196,9 +238,9 @@ fn fitted(
     // The wider the search, the fewer surfaces it takes to tell poses apart.
     let spread = predicted.covariance.matrix().diagonal().xy().map(f64::sqrt).max() * options.search_sigmas;
     let step = if spread > WIDE { 3 } else { 1 };
-    let few: Vec<SurfacePoint> = seen.iter().step_by(step).copied().collect();
+    let few: Vec<SurfacePoint> = seen.near.iter().step_by(step).copied().collect();
     let start = search(&reference.field, &few, &predicted, options.search_sigmas, weight * step as f64);
-    let fine = align(&reference.cloud, seen, start, &predicted, options);
+    let fine = align(&reference.cloud, &seen.all, start, &predicted, options);
     UncertainPose { mean: from.between(fine.mean), covariance: fine.covariance.rotated(-from.theta) }
 }
 

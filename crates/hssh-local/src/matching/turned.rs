@@ -1,9 +1,7 @@
 //! How the laser sits on the robot: where wheels say that it went straight ahead, scans show it going aside if it is turned.
 
-use super::options::MatchOptions;
-use super::track::{Track, track};
+use super::track::Track;
 use crate::carmen::{LaserLog, LaserTurn};
-use crate::progress::Reply;
 
 /// Stretches of the way are compared that are so long, in metres, and on which the robot turned less, in radians.
 const STRETCH: f64 = 0.5;
@@ -45,21 +43,6 @@ impl LaserTurn {
         let mut off: Vec<f64> = angles.iter().map(|one| (one - angle).abs()).collect();
         Some(LaserTurn { angle, sigma: DEVIATION * middle(&mut off) / count.sqrt() })
     }
-}
-
-/// Tracks a log as [`track`] does. Where that shows that the laser is clearly turned against the odometry, and nobody said how the laser
-/// sits, the odometry is turned with it and the log tracked once more: a degree of it leads a long track astray by metres.
-pub fn track_turned<R: Into<Reply>>(
-    log: LaserLog,
-    options: &MatchOptions,
-    mut progress: impl FnMut(usize) -> R,
-) -> (LaserLog, Track) {
-    let first = track(&log, options, &mut progress);
-    let Some(turn) = unreckoned_turn(&log, &first) else { return (log, first) };
-    let turned = log.clone().turned(turn);
-    let second = track(&turned, options, progress);
-    // Stopped on the second way, the first is worth more.
-    if second.scans.len() < first.scans.len() { (log, first) } else { (turned, second) }
 }
 
 /// By how much the laser is turned, if that is clear and neither said by anybody nor reckoned with.

@@ -32,6 +32,17 @@ pub enum SurveyWarning {
         /// The earlier one, counted from 1.
         earlier: usize,
     },
+    /// A return that may be one, and may be none.
+    #[error(
+        "scan {scan}: the robot may be back where scan {earlier} was taken, for it looks the same there, but other places nearby do, \
+         too, and where the robot is is not known well enough to tell"
+    )]
+    Possible {
+        /// The later scan, counted from 1.
+        scan: usize,
+        /// The earlier one, counted from 1.
+        earlier: usize,
+    },
     /// Scans that lie on nothing.
     #[error(
         "scans {first} to {last} lie on nothing that was seen before, wherever they are put: the robot is lost there, \

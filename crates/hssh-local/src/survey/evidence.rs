@@ -4,7 +4,7 @@
 use hssh_metrics::UncertainPose;
 
 use super::error::SurveyWarning;
-use crate::closing::{Closure, Known, Ways};
+use crate::closing::{ClosedTrack, Closure, Known, Ways};
 use crate::matching::Track;
 
 /// Closures of scans that are nearer than this to one another on both passes are one return: metres of travel.
@@ -17,6 +17,8 @@ pub(super) const CONFIRMING: f64 = 8.0;
 const LEAST_TRAVEL: f64 = 15.0;
 /// A closure that counts less than this in the end is contradicted.
 pub(super) const BELIEVED: f64 = 0.5;
+/// A return to where the robot was hardly expected is confirmed if it is one of so many.
+const CONFIRMED: usize = 4;
 /// Where the robot is known up to this standard deviation, in metres, it is where it seems to be.
 const WELL_KNOWN: f64 = 2.5;
 /// Metres of travel between the scans that are asked whether the robot is back.
@@ -34,7 +36,7 @@ pub struct Evidence {
     /// How many times the robot seems to be back and the laser does not show it.
     pub unconfirmed: usize,
     /// How many times it seems to be back after so long a way that it might as well be elsewhere, and the laser does
-    /// not show it.
+    /// not show it; or may be back, as far as is known; or is back, as the laser shows, where it was hardly expected.
     pub adrift: usize,
     /// On how many stretches the robot was lost: scans lie on nothing that was seen before, wherever they are put. A log
     /// without odometry counts as one.
@@ -86,24 +88,58 @@ impl Evidence {
 }
 
 /// The evidence for a closed track, and what there is to say about it.
-pub(super) fn evidence(track: &Track, closures: &[Closure]) -> (Evidence, Vec<SurveyWarning>) {
+pub(super) fn evidence(track: &Track, closed: &ClosedTrack) -> (Evidence, Vec<SurveyWarning>) {
     let (believed, contradicted): (Vec<Closure>, Vec<Closure>) =
-        closures.iter().partition(|closure| closure.weight >= BELIEVED);
+        closed.closures.iter().partition(|closure| closure.weight >= BELIEVED);
     let mut warnings = Vec::new();
     let returns = stretches(track, &believed);
-    let is_far = |stretch: &&Vec<Closure>| stretch.iter().any(|closure| closure.spread > WELL_KNOWN);
-    let far_returns = returns.iter().filter(is_far).count();
+    let is_far = |closure: &Closure| closure.spread > WELL_KNOWN;
+    let far_returns = returns.iter().filter(|stretch| stretch.iter().any(is_far)).count();
     let mut evidence = Evidence { returns: returns.len(), far_returns, ..Evidence::default() };
+    for closure in surprising(&returns) {
+        evidence.adrift += 1;
+        warnings.push(SurveyWarning::Possible { scan: closure.later + 1, earlier: closure.earlier + 1 });
+    }
     for closure in stretches(track, &contradicted).iter().filter_map(|stretch| stretch.first()) {
         evidence.contradicted += 1;
         warnings.push(SurveyWarning::Contradicted { scan: closure.later + 1, earlier: closure.earlier + 1 });
     }
-    for (later, earlier, known) in unconfirmed(track, &believed) {
+    for (later, earlier, known) in unconfirmed(track, &believed, &closed.expected) {
         let is_known = known.across <= WELL_KNOWN;
         *if is_known { &mut evidence.unconfirmed } else { &mut evidence.adrift } += 1;
         warnings.push(SurveyWarning::Unconfirmed { scan: later + 1, earlier: earlier + 1 });
     }
+    for (earlier, later) in possible_stretches(track, &closed.possible) {
+        evidence.adrift += 1;
+        warnings.push(SurveyWarning::Possible { scan: later + 1, earlier: earlier + 1 });
+    }
     (evidence, warnings)
+}
+
+/// The returns to where the robot was hardly expected, which may as well be to a corridor beside it that looks the same; unless there are
+/// more returns, of which some would not fit to a wrong one.
+fn surprising(returns: &[Vec<Closure>]) -> Vec<Closure> {
+    let is_surprising = |closure: &&Closure| closure.off > closure.spread.max(NEAR);
+    let mut surprising: Vec<Closure> =
+        returns.iter().filter_map(|stretch| stretch.iter().find(is_surprising)).copied().collect();
+    if surprising.len() * CONFIRMED <= returns.len() {
+        surprising.clear();
+    }
+    surprising
+}
+
+/// One pair of scans for each later stretch of the way that looks like an earlier one where it may be. One pair alone is chance.
+fn possible_stretches(track: &Track, possible: &[(usize, usize)]) -> Vec<(usize, usize)> {
+    let at = |scan: usize| track.scans[scan].travelled;
+    let mut stretches: Vec<Vec<(usize, usize)>> = Vec::new();
+    for &(earlier, later) in possible {
+        match stretches.iter_mut().find(|stretch| at(later) - at(stretch[0].1) < ONE_RETURN) {
+            Some(stretch) => stretch.push((earlier, later)),
+            None => stretches.push(vec![(earlier, later)]),
+        }
+    }
+    stretches.retain(|stretch| stretch.last().is_some_and(|last| last.1 != stretch[0].1));
+    stretches.into_iter().map(|stretch| stretch[0]).collect()
 }
 
 /// Closures that follow one another along a stretch of the way, together.
@@ -126,9 +162,13 @@ pub(super) fn stretches<'a>(
     stretches
 }
 
-/// Where the robot seems to be back, and no closure says so: one pair of scans for each stretch, the later one first, and how
+/// Where the robot seems to be back, and neither a closure says so nor does it look alike as expected: one pair of scans for each stretch, the later one first, and how
 /// well they are known to one another.
-fn unconfirmed(track: &Track, believed: &[Closure]) -> Vec<(usize, usize, Known)> {
+fn unconfirmed(
+    track: &Track,
+    believed: &[Closure],
+    expected: &[(usize, usize)],
+) -> Vec<(usize, usize, Known)> {
     let mut asked: Vec<usize> = Vec::new();
     for (scan, tracked) in track.scans.iter().enumerate() {
         if asked.last().is_none_or(|&last| tracked.travelled - track.scans[last].travelled >= STEP) {
@@ -146,9 +186,10 @@ fn unconfirmed(track: &Track, believed: &[Closure]) -> Vec<(usize, usize, Known)
             if at(later) - at(earlier) < LEAST_TRAVEL || apart > NEAR {
                 continue;
             }
-            let is_confirmed = believed.iter().any(|closure| {
-                (at(closure.later) - at(later)).abs() < CONFIRMING
-                    && (at(closure.earlier) - at(earlier)).abs() < CONFIRMING
+            let mut shown =
+                expected.iter().copied().chain(believed.iter().map(|one| (one.earlier, one.later)));
+            let is_confirmed = shown.any(|(before, after)| {
+                (at(after) - at(later)).abs() < CONFIRMING && (at(before) - at(earlier)).abs() < CONFIRMING
             });
             let is_told = found.iter().any(|&(other, before, _)| {
                 (at(other) - at(later)).abs() < ONE_RETURN && (at(before) - at(earlier)).abs() < ONE_RETURN
@@ -184,7 +225,7 @@ fn ways(track: &Track, asked: &[usize], believed: &[Closure]) -> Ways {
 
 #[cfg(test)]
 mod tests {
-    use hssh_metrics::{Covariance, Pose};
+    use hssh_metrics::{Covariance, Pose, PoseGraph};
     use proptest::prelude::*;
 
     use super::*;
@@ -213,7 +254,16 @@ mod tests {
         let scan = |at: f64| (2.0 * at) as usize - 1;
         let (earlier, later) = (scan(earlier), scan(later));
         let covariance = Covariance::from_standard_deviations(0.1, 0.1, 0.01).unwrap();
-        Closure { earlier, later, relative: Pose::IDENTITY, covariance, agreement: 1.0, spread: 0.5, weight }
+        Closure {
+            earlier,
+            later,
+            relative: Pose::IDENTITY,
+            covariance,
+            agreement: 1.0,
+            spread: 0.5,
+            off: 0.0,
+            weight,
+        }
     }
 
     /// Around a square of 30 m, and half of it again.
@@ -228,17 +278,21 @@ mod tests {
         (from..to).step_by(5).map(f64::from).map(|at| closure((at, at + 120.0), 1.0)).collect()
     }
 
+    fn closed(closures: Vec<Closure>) -> ClosedTrack {
+        ClosedTrack { graph: PoseGraph::default(), closures, expected: Vec::new(), possible: Vec::new() }
+    }
+
     fn counts(evidence: Evidence) -> (usize, usize, usize) {
         (evidence.returns, evidence.contradicted, evidence.unconfirmed)
     }
 
     #[test]
     fn closures_along_a_stretch_are_one_return() {
-        let (found, warnings) = evidence(&around(), &again(2, 60));
+        let (found, warnings) = evidence(&around(), &closed(again(2, 60)));
         assert_eq!((counts(found), warnings), ((1, 0, 0), vec![]));
         // A return at the beginning, and another one a long way on; between them nothing was seen.
         let apart: Vec<Closure> = again(2, 12).into_iter().chain(again(45, 60)).collect();
-        let (found, warnings) = evidence(&around(), &apart);
+        let (found, warnings) = evidence(&around(), &closed(apart));
         assert_eq!(found.returns, 2);
         assert_eq!(found.unconfirmed, warnings.len());
         assert!(found.unconfirmed >= 1, "{warnings:?}");
@@ -246,7 +300,7 @@ mod tests {
 
     #[test]
     fn where_nothing_says_that_the_robot_is_back_it_is_said() {
-        let (found, warnings) = evidence(&around(), &[]);
+        let (found, warnings) = evidence(&around(), &closed(Vec::new()));
         // 60 m twice, told every 15 m.
         assert_eq!(counts(found), (0, 0, warnings.len()));
         assert!((4..=6).contains(&warnings.len()), "{warnings:?}");
@@ -257,12 +311,48 @@ mod tests {
         }
     }
 
+    /// What looks alike as expected is no doubt, and what looks alike elsewhere is one for each 15 m of way, if it does so twice.
+    #[test]
+    fn what_looks_alike_confirms_or_makes_doubtful() {
+        let pairs = |from: f64, to: f64| -> Vec<(usize, usize)> {
+            again(2, 60)
+                .iter()
+                .map(|one| (one.earlier, one.later))
+                .filter(|one| {
+                    let at = one.0 as f64 / 2.0;
+                    from <= at && at <= to
+                })
+                .collect()
+        };
+        let (found, warnings) =
+            evidence(&around(), &ClosedTrack { expected: pairs(0.0, 60.0), ..closed(Vec::new()) });
+        assert_eq!((counts(found), found.adrift, warnings), ((0, 0, 0), 0, vec![]));
+        let alike = |from: f64, to: f64| ClosedTrack { possible: pairs(from, to), ..closed(again(2, 60)) };
+        let doubts = |from: f64, to: f64| evidence(&around(), &alike(from, to)).0.adrift;
+        assert_eq!((doubts(0.0, 60.0), doubts(10.0, 18.0), doubts(10.0, 14.0)), (4, 1, 0));
+    }
+
+    /// The robot was believed to be 3 m off, and known up to 2 m: of two returns that is one too surprising, of four it is none.
+    #[test]
+    fn a_surprising_return_is_doubtful_until_more_returns_confirm_it() {
+        let surprising = |at: f64| Closure { spread: 2.0, off: 3.0, ..closure((at, at + 120.0), 1.0) };
+        let doubts = |others: u32| {
+            let returns =
+                (1..=others).map(|k| 10.0 + 16.0 * f64::from(k)).map(|at| closure((at, at + 120.0), 1.0));
+            let (found, _) =
+                evidence(&around(), &closed(std::iter::once(surprising(5.0)).chain(returns).collect()));
+            (found.returns, found.adrift)
+        };
+        // Where the robot seems to be back later on and no closure says so is told as unconfirmed, not here.
+        assert_eq!([doubts(1), doubts(3)], [(2, 1), (4, 0)]);
+    }
+
     #[test]
     fn what_the_rest_contradicts_is_no_return() {
         let mut closures = again(2, 60);
         closures.extend([closure((10.0, 95.0), 0.01), closure((12.0, 97.0), 0.2)]);
         closures.push(closure((15.0, 55.0), 0.1));
-        let (found, warnings) = evidence(&around(), &closures);
+        let (found, warnings) = evidence(&around(), &closed(closures));
         assert_eq!(counts(found), (1, 2, 0));
         let expected =
             [(190, 20), (110, 30)].map(|(scan, earlier)| SurveyWarning::Contradicted { scan, earlier });
@@ -270,14 +360,14 @@ mod tests {
         // It confirms nothing either.
         let doubtful: Vec<Closure> =
             again(2, 60).into_iter().map(|closure| Closure { weight: 0.1, ..closure }).collect();
-        let (found, _) = evidence(&around(), &doubtful);
+        let (found, _) = evidence(&around(), &closed(doubtful));
         assert!(found.returns == 0 && found.contradicted == 1 && found.unconfirmed >= 4, "{found:?}");
     }
 
     #[test]
     fn who_never_comes_back_has_no_evidence() {
         assert_eq!(
-            evidence(&track(&[[0.0, 0.0], [80.0, 0.0], [80.0, 50.0]]), &[]),
+            evidence(&track(&[[0.0, 0.0], [80.0, 0.0], [80.0, 50.0]]), &closed(Vec::new())),
             (Evidence::default(), vec![])
         );
         assert_eq!(Evidence::default().probability(&PerceptionModel::default()), 1.0);

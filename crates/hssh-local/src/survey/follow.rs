@@ -12,7 +12,7 @@ use crate::carmen::LaserLog;
 use crate::closing::close_loops;
 use crate::global_map::global_map;
 use crate::local_map::LocalMapOptions;
-use crate::matching::{Track, TrackedScan, track_turned};
+use crate::matching::{Track, TrackedScan, track_calibrated};
 use crate::progress::Reply;
 use crate::route::route;
 
@@ -31,7 +31,7 @@ pub enum SurveyStage {
 /// odometry alone. `progress` is told how many scans each stage has done, and may stop it: then the survey is one of the
 /// scans matched so far, with the loops found so far.
 ///
-/// The log comes back as the survey takes it: up to the last scan that was matched, its odometry [turned](track_turned) with the laser.
+/// The log comes back as the survey takes it: up to the last scan that was matched, its odometry [turned](track_calibrated) with the laser.
 ///
 /// # Errors
 /// If the options describe no local map, there is no place, or a way cannot be measured.
@@ -41,7 +41,7 @@ pub fn survey<R: Into<Reply>>(
     mut progress: impl FnMut(SurveyStage, usize) -> R,
 ) -> Result<(LaserLog, Survey), SurveyError> {
     let mut stopped = false;
-    let (mut log, track) = track_turned(log, &options.matching, |scans| {
+    let (mut log, track) = track_calibrated(log, &options.matching, |scans| {
         let reply = progress(SurveyStage::Tracking, scans).into();
         stopped |= reply == Reply::Stop;
         reply
@@ -104,7 +104,7 @@ pub fn survey_tracked<R: Into<Reply>>(
             grid: building.window(center.into(), options.window).unwrap_or_else(|| building.clone()),
         }
     });
-    let (mut evidence, mut warnings) = evidence(&track, &closed.closures);
+    let (mut evidence, mut warnings) = evidence(&track, &closed);
     let lost = doubts(log, &track);
     evidence.lost = lost.len();
     warnings.extend(lost);

@@ -57,7 +57,7 @@ impl Survey {
     pub(super) fn new(
         visits: Vec<Visit>,
         track: Track,
-        ClosedTrack { graph, closures }: ClosedTrack,
+        ClosedTrack { graph, closures, .. }: ClosedTrack,
         evidence: Evidence,
         options: &SurveyOptions,
         warnings: Vec<SurveyWarning>,

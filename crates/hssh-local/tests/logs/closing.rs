@@ -158,7 +158,7 @@ fn what_scan_matching_leaves_is_closed() {
 
 /// A pose for each scan, an edge for each step, more than the closures beside them, and nothing left to be gained.
 fn all_scans_are_in_one_graph(closed: &Closed) {
-    let ClosedTrack { graph, closures } = &closed.closed;
+    let ClosedTrack { graph, closures, .. } = &closed.closed;
     let scans = closed.track.scans.len();
     let steps = graph.edges().iter().filter(|edge| edge.to.0 == edge.from.0 + 1).count();
     assert_eq!((graph.poses().len(), steps), (scans, scans - 1));

@@ -1,6 +1,6 @@
 //! Scan matching: it undoes the errors of odometry where walls tell, and knows where they do not.
 
-use hssh_local::{LaserLog, MatchOptions, Track, track, track_turned};
+use hssh_local::{LaserLog, MatchOptions, Track, track, track_calibrated};
 use hssh_metrics::Pose;
 
 use crate::simulator::{Walls, around, drive, log};
@@ -66,14 +66,14 @@ fn a_turned_laser_is_reckoned_with() {
     let read = LaserLog::read(text.as_bytes()).unwrap();
     let options = MatchOptions::default();
     let untold = error(&track(&read, &options, |_| ()), &laser).translation().norm();
-    let (turned, found) = track_turned(read.clone(), &options, |_| ());
+    let (turned, found) = track_calibrated(read.clone(), &options, |_| ());
     let told = error(&found, &laser).translation().norm();
     let seen = turned.laser_turn.expect("it is clear").angle;
     assert!((seen - turn).abs() < 0.005, "{seen}");
     assert!(told < 0.5 * untold, "{told} {untold}");
     // Who says how the laser sits is believed.
     let given = LaserLog { is_laser_given: true, ..read };
-    assert_eq!(track_turned(given, &options, |_| ()).0.laser_turn, None);
+    assert_eq!(track_calibrated(given, &options, |_| ()).0.laser_turn, None);
 }
 
 #[test]

@@ -47,7 +47,7 @@ pub(crate) fn run(arguments: &LiveArguments) -> Result<Status, Failure> {
     }
     lock(&latest).follow(incoming.into_log(file)?);
     renew(&latest);
-    lock(&latest).turn_with_laser();
+    lock(&latest).calibrate();
     renew(&latest);
     let input = surveyed(arguments, &latest, &options)?;
     tell_delays(delays, &made);

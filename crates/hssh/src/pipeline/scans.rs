@@ -99,7 +99,9 @@ pub(super) fn warn_of(found: &[SurveyWarning], log: &LaserLog, warnings: &mut Ve
         }
         let (kind, scan) = match *warning {
             SurveyWarning::Contradicted { scan, .. } => (WarningKind::ContradictedReturn, scan),
-            SurveyWarning::Unconfirmed { scan, .. } => (WarningKind::UnconfirmedReturn, scan),
+            SurveyWarning::Unconfirmed { scan, .. } | SurveyWarning::Possible { scan, .. } => {
+                (WarningKind::UnconfirmedReturn, scan)
+            }
             SurveyWarning::Lost { first, .. } => (WarningKind::Lost, first),
             SurveyWarning::LaserTurned(_) | SurveyWarning::TurnedWithLaser(_) => (WarningKind::LaserPose, 1),
             SurveyWarning::NoOdometry => (WarningKind::NoOdometry, 1),

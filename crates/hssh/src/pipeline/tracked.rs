@@ -2,7 +2,7 @@
 
 use hssh_local::{
     LaserLog, LatticeError, MatchOptions, OccupancyGrid, Reply, SurveyWarning, Track, building_map, doubts,
-    track_turned, turned_laser,
+    track_calibrated, turned_laser,
 };
 use hssh_metrics::{Edge, GraphError, Pose, PoseGraph, PoseId};
 
@@ -28,7 +28,7 @@ impl TrackedLog {
         options: &MatchOptions,
         progress: impl FnMut(usize) -> R,
     ) -> Self {
-        let (log, track) = track_turned(log, options, progress);
+        let (log, track) = track_calibrated(log, options, progress);
         let scans = track.scans.len();
         let is_whole = scans == log.scans.len();
         let log = if is_whole { log } else { log.beginning(scans) };
