@@ -21,8 +21,13 @@ const MOST_SCANS: usize = 300;
 const MOST_BEAMS: usize = 181;
 
 impl RawLog {
-    /// Warns if scans turn where the odometry does not, with that view in radians.
+    /// Warns if scans turn where the odometry does not, with that view in radians. Where it does not move at all, there is none, which is told
+    /// once the log is tracked.
     pub(super) fn check_turns(&self, view: f64, warnings: &mut Vec<LogWarning>) {
+        let first = self.trajectory.first().map_or(Pose::IDENTITY, |first| first.pose);
+        if self.trajectory.iter().all(|moment| moment.pose == first) {
+            return;
+        }
         let beams = self.scans.first().map_or(0, |scan| scan.ranges.len());
         let thinned = beams.div_ceil(MOST_BEAMS).max(1);
         let step = thinned as f64 * view / (beams - beams % 2).max(1) as f64;

@@ -395,14 +395,18 @@ fn turns_doubted(log: &str) -> bool {
 fn turns_that_odometry_does_not_tell_are_doubted() {
     let log = turning(180.0, 181, "");
     assert!(!turns_doubted(&log) && !turns_doubted(&driving(0.0, false)));
-    let frozen = reworded(&log, |_, words| words[188] = "0".to_owned());
+    let frozen = reworded(&log, |scan, words| {
+        words[186] = format!("0.0{scan:02}");
+        words[188] = "0".to_owned();
+    });
     assert!(turns_doubted(&frozen));
-    let wide = reworded(&turning(270.0, 541, "PARAM laser_front_laser_fov 270 h 0\n"), |_, words| {
+    let wide = reworded(&turning(270.0, 541, "PARAM laser_front_laser_fov 270 h 0\n"), |scan, words| {
+        words[546] = format!("0.0{scan:02}");
         words[548] = "1.5".to_owned();
     });
     assert!(turns_doubted(&wide));
     // Now and then it turns at once; told four scans late.
-    let heading = |scan: usize| if scan % 10 == 0 { 0.3 } else { 0.0 };
+    let heading = |scan: usize| if scan.is_multiple_of(10) { 0.3 } else { 0.0 };
     let mut told = [0.0; 60];
     for scan in 1..60 {
         told[scan] = told[scan - 1] + heading(scan);
