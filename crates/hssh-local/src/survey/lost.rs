@@ -77,6 +77,7 @@ pub fn turned_laser(log: &LaserLog, track: &Track) -> Option<SurveyWarning> {
 mod tests {
     use super::*;
     use crate::matching::TrackedScan;
+    use hssh_metrics::Pose;
 
     /// A log whose odometry advances by `step` metres from scan to scan.
     fn log(step: f64) -> LaserLog {
