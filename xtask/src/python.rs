@@ -30,7 +30,7 @@ pub(crate) fn test(shell: &Shell) -> Result<(), Box<dyn Error>> {
         return Ok(());
     }
     let python = interpreter(&environment);
-    // With what the other tests have compiled, which takes a fraction of the time of a release.
+    // With what the other tests have compiled of the crates of others, which takes a fraction of the time of a release.
     let profile = "--config-settings=build-args=--profile dev";
     let install = ["--quiet", "--no-build-isolation", "--no-deps", "--force-reinstall", profile, "./python"];
     cmd!(shell, "{python} -m pip install {install...}")

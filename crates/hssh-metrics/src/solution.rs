@@ -109,10 +109,10 @@ pub enum SolveError {
     /// χ² at the start is too large for a floating-point number.
     #[error("χ² of the initial poses overflows; measurements or poses are out of all proportion")]
     Overflow,
-    /// The matrix A cannot be factorized.
+    /// The matrix A cannot be factorized; `floating_poses` tells which poses too few measurements hold.
     #[error(
         "the normal equations are singular to working precision: the information matrices of the graph's edges \
-         differ by too many orders of magnitude, or there are too few measurements (`floating_poses` tells of what)"
+         differ by too many orders of magnitude, or there are too few measurements"
     )]
     Singular,
 }

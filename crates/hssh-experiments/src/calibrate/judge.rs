@@ -60,6 +60,7 @@ impl Errors {
                 // Neither tells of a return.
                 SurveyWarning::Lost { .. }
                 | SurveyWarning::NoOdometry
+                | SurveyWarning::OdometryStands { .. }
                 | SurveyWarning::LaserTurned(_)
                 | SurveyWarning::TurnedWithLaser(_)
                 | SurveyWarning::Interrupted { .. } => {}

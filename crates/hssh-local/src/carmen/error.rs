@@ -124,6 +124,43 @@ pub enum LogWarning {
         /// About so many times as far.
         seen: f64,
     },
+    /// The scans turn where the odometry does not.
+    TurnsApart {
+        /// How many turns the odometry tells otherwise.
+        off: u64,
+        /// How many turns the scans show.
+        turns: u64,
+    },
+    /// Scans that are the same to the last digit while the robot drives.
+    ScansRepeat {
+        /// Where the first of them stands.
+        at: LogPosition,
+        /// How many there are.
+        scans: u64,
+        /// How far the odometry went meanwhile: metres.
+        metres: f64,
+    },
+    /// The odometry goes as fast as no robot does in a building.
+    TooFast {
+        /// The usual speed: metres per second.
+        speed: f64,
+    },
+    /// The odometry between scans is not that of the scans, and was left out.
+    StrayOdometry {
+        /// The first line of it.
+        at: LogPosition,
+        /// How many lines there are.
+        lines: u64,
+    },
+    /// A parameter that cannot mean what it says, and was not used.
+    OddParameter {
+        /// Its name.
+        name: &'static str,
+        /// Its value.
+        value: f64,
+        /// What it would have to be.
+        expected: &'static str,
+    },
     /// The scans turn with the robot instead of against it: their beams come in the other order.
     Mirrored,
     /// Something about a recording that its reader has to say.
@@ -165,6 +202,8 @@ impl LogWarning {
             LogWarning::Message { at, .. }
             | LogWarning::BreaksOff { at, .. }
             | LogWarning::OddBeams { at, .. }
+            | LogWarning::ScansRepeat { at, .. }
+            | LogWarning::StrayOdometry { at, .. }
             | LogWarning::Jump { at, .. } => Some(*at),
             LogWarning::RangeLimit { .. }
             | LogWarning::LimitDoubted { .. }
@@ -172,8 +211,11 @@ impl LogWarning {
             | LogWarning::Facing { .. }
             | LogWarning::OdometryScale { .. }
             | LogWarning::Mirrored
+            | LogWarning::OddParameter { .. }
             | LogWarning::Remark { .. }
             | LogWarning::ScansAlone
+            | LogWarning::TooFast { .. }
+            | LogWarning::TurnsApart { .. }
             | LogWarning::View { .. } => None,
         }
     }
@@ -182,7 +224,11 @@ impl LogWarning {
     #[must_use]
     pub fn is_loss(&self) -> bool {
         match self {
-            LogWarning::Message { .. } | LogWarning::BreaksOff { .. } | LogWarning::Jump { .. } => true,
+            LogWarning::Message { .. }
+            | LogWarning::BreaksOff { .. }
+            | LogWarning::Jump { .. }
+            | LogWarning::OddParameter { .. }
+            | LogWarning::StrayOdometry { .. } => true,
             LogWarning::Remark { is_loss, .. } => *is_loss,
             LogWarning::OddBeams { .. }
             | LogWarning::RangeLimit { .. }
@@ -192,6 +238,9 @@ impl LogWarning {
             | LogWarning::OdometryScale { .. }
             | LogWarning::Mirrored
             | LogWarning::ScansAlone
+            | LogWarning::ScansRepeat { .. }
+            | LogWarning::TooFast { .. }
+            | LogWarning::TurnsApart { .. }
             | LogWarning::View { .. } => false,
         }
     }
@@ -257,6 +306,29 @@ impl fmt::Display for LogWarning {
                  readings are longer, up to {longest} m, and differ as walls do: they were taken to have brought nothing \
                  back; is the limit right?"
             ),
+            LogWarning::TurnsApart { off, turns } => write!(
+                f,
+                "in {off} of {turns} turns that the scans show, the odometry does not turn alike at that time: is its heading missing, in \
+                 another unit, or behind the scans? what is made of the log is wrong if so"
+            ),
+            LogWarning::ScansRepeat { at, scans, metres } => write!(
+                f,
+                "{at}: {scans} scans from here on are the same to the last digit, although the odometry goes on by {metres:.1} m: the laser \
+                 stood still there, and what is made of the log is wrong if the robot did not"
+            ),
+            LogWarning::TooFast { speed } => write!(
+                f,
+                "the odometry goes at {speed:.0} m/s, as no robot does in a building: is it in metres, and are the times in seconds? what is \
+                 made of the log is wrong if not"
+            ),
+            LogWarning::StrayOdometry { at, lines } => write!(
+                f,
+                "{at}: {lines} lines of odometry between the scans are far from where the scans' own odometry is, as if they counted in \
+                 another unit or from another place: they were left out"
+            ),
+            LogWarning::OddParameter { name, value, expected } => {
+                write!(f, "the parameter {name} is {value}, but would have to be {expected}: it was not used")
+            }
             LogWarning::Remark { text, .. } => f.write_str(text),
             LogWarning::ScansAlone => write!(
                 f,

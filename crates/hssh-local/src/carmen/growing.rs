@@ -68,8 +68,15 @@ impl GrowingLog {
         raw.tell_odd_beams(&mut warnings);
         let (view, turn, is_told) = raw.view(&known);
         if is_whole {
+            let before = warnings.len();
             raw.check_view(view, is_told, &mut warnings);
+            if warnings.len() == before {
+                raw.check_turns(view, &mut warnings);
+            }
+            raw.check_repeats(&mut warnings);
+            raw.check_speed(&mut warnings);
         }
+        raw.drop_stray_lines(&mut warnings);
         raw.move_to_laser(&known, &mut warnings);
         raw.bridge_jumps(&mut warnings);
         let max_range = raw.limit(&mut warnings)?;

@@ -23,7 +23,10 @@ mod mount;
 mod position;
 mod raw;
 mod reader;
+mod standing;
+mod stray;
 mod turn;
+mod turns;
 mod view;
 
 pub use error::{LogError, LogWarning, MessageProblem};

@@ -41,7 +41,8 @@ impl RawLog {
 
     /// Makes the trajectory that of the laser, from which all ranges are measured.
     pub(super) fn move_to_laser(&mut self, known: &LaserMount, warnings: &mut Vec<LogWarning>) {
-        let (mut pose, source) = match (known.pose, self.told_by_poses(), self.told_by_parameters()) {
+        let by_parameters = if known.pose.is_none() { self.told_by_parameters(warnings) } else { None };
+        let (mut pose, source) = match (known.pose, self.told_by_poses(), by_parameters) {
             (Some(pose), ..) => (pose, "who gave it"),
             (None, Some(pose), _) => (pose, "the difference of the two poses in each FLASER message"),
             (None, None, Some(pose)) => (pose, "the log's parameter robot_frontlaser_offset"),
@@ -60,11 +61,23 @@ impl RawLog {
         }
     }
 
-    fn told_by_parameters(&self) -> Option<Pose> {
-        let [x, y, theta] = PARAMETERS.map(|name| self.parameter(name).unwrap_or(0.0));
-        let pose = Pose::new(x, y, theta);
-        let is_offset = pose != Pose::IDENTITY && pose.translation().norm() <= FARTHEST;
-        is_offset.then_some(pose)
+    fn told_by_parameters(&self, warnings: &mut Vec<LogWarning>) -> Option<Pose> {
+        const LIMITS: [(f64, &str); 3] = [
+            (FARTHEST, "in metres, and within 3 m of the robot's axis"),
+            (FARTHEST, "in metres, and within 3 m of the robot's axis"),
+            (std::f64::consts::TAU, "in radians, and no more than a full turn"),
+        ];
+        let mut told = [0.0; 3];
+        for ((name, (most, expected)), told) in PARAMETERS.into_iter().zip(LIMITS).zip(&mut told) {
+            let value = self.parameter(name).unwrap_or(0.0);
+            if value.abs() <= most {
+                *told = value;
+            } else {
+                warnings.push(LogWarning::OddParameter { name, value, expected });
+            }
+        }
+        let pose = Pose::new(told[0], told[1], told[2]);
+        (pose != Pose::IDENTITY).then_some(pose)
     }
 
     /// In a log that nobody corrected, the first pose of a scan is the laser's and the second the robot's, and one is

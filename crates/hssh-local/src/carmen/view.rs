@@ -61,7 +61,7 @@ impl RawLog {
 }
 
 /// By how many beams the second scan is turned to the left of the first, if that is clear and more than a few.
-fn shift(first: &[f64], second: &[f64]) -> Option<f64> {
+pub(super) fn shift(first: &[f64], second: &[f64]) -> Option<f64> {
     const FEW: i64 = 4;
     let beams = first.len() as i64;
     let apart = |shift: i64| {

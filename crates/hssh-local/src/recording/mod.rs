@@ -75,6 +75,8 @@ impl LaserLog {
             odometry.into_iter().map(|timed| TimedPose { pose: moved(timed.pose), ..timed }).collect()
         };
         let (geometry, mut raw) = merged(scans, &odometry);
+        raw.check_repeats(&mut warnings);
+        raw.check_speed(&mut warnings);
         raw.bridge_jumps(&mut warnings);
         let max_range = raw.limit(&mut warnings)?;
         // A recording says where its laser looks.

@@ -57,6 +57,19 @@ pub enum SurveyWarning {
     /// Odometry that stands still.
     #[error("the log has no odometry: it stands still while the scans move, and scans alone lose their way")]
     NoOdometry,
+    /// Odometry that stands still for a while.
+    #[error(
+        "scans {first} to {last}: the odometry stands still while the scans move on by {metres:.1} m: did the wheels' counter stop? what the \
+         log shows from there on may be in the wrong place"
+    )]
+    OdometryStands {
+        /// The first of these scans, counted from 1.
+        first: usize,
+        /// The last of them, counted from 1.
+        last: usize,
+        /// How far the scans say that the robot went: metres.
+        metres: f64,
+    },
     /// A laser that is not where it was taken to be.
     #[error(
         "the laser seems to be turned by {:.1}° to the left (± {:.1}°) against the odometry: if it is, say so with --laser-pose, \

@@ -1,7 +1,5 @@
 //! Where a robot was lost: its scans lie on nothing that it saw before, or it has no odometry, or its laser is turned.
 
-use hssh_metrics::Pose;
-
 use super::error::SurveyWarning;
 use crate::carmen::{LaserLog, LaserTurn, LogWarning};
 use crate::matching::Track;
@@ -13,15 +11,17 @@ pub fn doubts(log: &LaserLog, track: &Track) -> Vec<SurveyWarning> {
     const IN_A_ROW: usize = 5;
     const PART: f64 = 0.2;
     let mut warnings = Vec::new();
-    let first = log.trajectory.first().copied().unwrap_or_default();
-    let stands = |pose: &Pose| {
-        let moved = first.between(*pose);
-        moved.translation().norm() < 0.01 && moved.theta.abs() < 0.01
-    };
-    let has_moved = track.scans.last().is_some_and(|last| last.travelled > 1.0);
-    let has_none = log.warnings.contains(&LogWarning::ScansAlone);
-    if has_none || has_moved && log.trajectory.iter().all(stands) {
+    let stretches = standing(log, track);
+    let is_whole = |&(first, last, _): &(usize, usize, f64)| first == 0 && last + 1 == track.scans.len();
+    if log.warnings.contains(&LogWarning::ScansAlone) || stretches.iter().any(is_whole) {
         warnings.push(SurveyWarning::NoOdometry);
+    } else {
+        let stands = |(first, last, metres)| SurveyWarning::OdometryStands {
+            first: first + 1,
+            last: last + 1,
+            metres,
+        };
+        warnings.extend(stretches.into_iter().map(stands));
     }
     let mut runs: Vec<(usize, usize)> = Vec::new();
     for &scan in &track.lost {
@@ -41,6 +41,31 @@ pub fn doubts(log: &LaserLog, track: &Track) -> Vec<SurveyWarning> {
     warnings
 }
 
+/// The stretches of scans along which the odometry stands still and the scans go on: the first, the last, and how many metres away from the
+/// first the scans get.
+fn standing(log: &LaserLog, track: &Track) -> Vec<(usize, usize, f64)> {
+    /// Metres from where it was that odometry stands still within…
+    const STANDS: f64 = 0.05;
+    /// …and that scans go on by at least.
+    const MOVES: f64 = 1.0;
+    let scans = &track.scans;
+    let told = |from: usize, to: usize| log.scans[from].odometry.between(log.scans[to].odometry);
+    let mut stretches = Vec::new();
+    let mut from = 0;
+    for to in 1..=scans.len() {
+        if to < scans.len() && told(from, to).translation().norm() <= STANDS {
+            continue;
+        }
+        let away = |scan: usize| scans[from].pose.between(scans[scan].pose).translation().norm();
+        let metres = (from..to).map(away).fold(0.0, f64::max);
+        if metres > MOVES {
+            stretches.push((from, to - 1, metres));
+        }
+        from = to;
+    }
+    stretches
+}
+
 /// By how much the laser is turned against the odometry, if that is clear: reckoned with, or not, where somebody said how the laser sits.
 #[must_use]
 pub fn turned_laser(log: &LaserLog, track: &Track) -> Option<SurveyWarning> {
@@ -52,6 +77,7 @@ pub fn turned_laser(log: &LaserLog, track: &Track) -> Option<SurveyWarning> {
 mod tests {
     use super::*;
     use crate::matching::TrackedScan;
+    use hssh_metrics::Pose;
 
     /// A log whose odometry advances by `step` metres from scan to scan.
     fn log(step: f64) -> LaserLog {
@@ -85,5 +111,22 @@ mod tests {
     #[test]
     fn a_robot_that_moves_without_odometry_has_none() {
         assert_eq!(doubts(&log(0.0), &track(&[])), [SurveyWarning::NoOdometry]);
+        assert_eq!(doubts(&log(0.0005), &track(&[])), [SurveyWarning::NoOdometry], "kilometres");
+    }
+
+    #[test]
+    fn odometry_that_stops_on_the_way_stands_from_there_on() {
+        let mut log = log(0.5);
+        let stop = log.scans[30].odometry;
+        log.scans[30..].iter_mut().for_each(|scan| scan.odometry = stop);
+        assert_eq!(
+            doubts(&log, &track(&[])),
+            [SurveyWarning::OdometryStands { first: 31, last: 40, metres: 4.5 }]
+        );
+        // A robot that waits does not move.
+        let mut waits = track(&[]);
+        let there = waits.scans[30];
+        waits.scans[30..].fill(there);
+        assert_eq!(doubts(&log, &waits), []);
     }
 }

@@ -372,6 +372,143 @@ fn beams_in_the_other_order_are_doubted() {
     assert!(read(&mirrored.concat()).unwrap().warnings.contains(&LogWarning::Mirrored));
 }
 
+/// The words of a log's scans, each changed by its number and put together again.
+fn reworded(log: &str, mut change: impl FnMut(usize, &mut Vec<String>)) -> String {
+    let mut scan = 0;
+    let line = |line: &str| {
+        let mut words: Vec<String> = line.split(' ').map(str::to_owned).collect();
+        if words[0] == "FLASER" {
+            change(scan, &mut words);
+            scan += 1;
+        }
+        words.join(" ") + "\n"
+    };
+    log.lines().map(line).collect()
+}
+
+fn turns_doubted(log: &str) -> bool {
+    read(log).unwrap().warnings.iter().any(|warning| matches!(warning, LogWarning::TurnsApart { .. }))
+}
+
+/// A gyroscope that is not connected, one that tells degrees for radians, and odometry that comes with the scans of long ago.
+#[test]
+fn turns_that_odometry_does_not_tell_are_doubted() {
+    let log = turning(180.0, 181, "");
+    assert!(!turns_doubted(&log) && !turns_doubted(&driving(0.0, false)));
+    let frozen = reworded(&log, |scan, words| {
+        words[186] = format!("0.0{scan:02}");
+        words[188] = "0".to_owned();
+    });
+    assert!(turns_doubted(&frozen));
+    let wide = reworded(&turning(270.0, 541, "PARAM laser_front_laser_fov 270 h 0\n"), |scan, words| {
+        words[546] = format!("0.0{scan:02}");
+        words[548] = "1.5".to_owned();
+    });
+    assert!(turns_doubted(&wide));
+    // Now and then it turns at once; told four scans late.
+    let heading = |scan: usize| if scan.is_multiple_of(10) { 0.3 } else { 0.0 };
+    let mut told = [0.0; 60];
+    for scan in 1..60 {
+        told[scan] = told[scan - 1] + heading(scan);
+    }
+    let wall = |bearing: f64| 4.0 + (3.0 * bearing).sin() + 0.6 * (7.0 * bearing).cos();
+    let late = |by: usize| {
+        reworded(&log, |scan, words| {
+            for beam in 0..181 {
+                words[2 + beam] = format!("{:.3}", wall(told[scan] + (beam as f64).to_radians() - FRAC_PI_2));
+            }
+            words[188] = format!("{:.4}", told[scan.saturating_sub(by)]);
+        })
+    };
+    assert!(!turns_doubted(&late(0)));
+    assert!(turns_doubted(&late(4)));
+}
+
+#[test]
+fn a_laser_that_repeats_itself_on_the_way_is_doubted() {
+    let log = driving(0.0, false);
+    let repeats = |log: &str| {
+        read(log).unwrap().warnings.iter().find_map(|warning| match warning {
+            LogWarning::ScansRepeat { scans, metres, .. } => Some((*scans, (metres * 10.0).round() / 10.0)),
+            _ => None,
+        })
+    };
+    assert_eq!(repeats(&log), None);
+    let mut stuck: Vec<String> = Vec::new();
+    let hung = reworded(&log, |scan, words| match scan {
+        10 => stuck = words[2..183].to_vec(),
+        11..20 => words[2..183].clone_from_slice(&stuck),
+        _ => {}
+    });
+    assert_eq!(repeats(&hung), Some((10, 1.8)));
+    // A robot that waits sees the same for long.
+    let waits = reworded(&log, |scan, words| {
+        if scan > 30 {
+            words[2..183].clone_from_slice(&stuck);
+            for word in [183, 186] {
+                words[word] = "2.2".to_owned();
+            }
+        }
+    });
+    assert_eq!(repeats(&waits), None);
+}
+
+/// Ten times too fast: decimetres, or milliseconds that are none.
+#[test]
+fn robots_that_are_too_fast_for_a_building_are_doubted() {
+    let speed = |log: &str| {
+        read(log).unwrap().warnings.iter().find_map(|warning| match warning {
+            LogWarning::TooFast { speed } => Some(*speed),
+            _ => None,
+        })
+    };
+    let log = driving(0.0, false);
+    assert_eq!(speed(&log), None);
+    let times = |seconds: f64| {
+        reworded(&log, |scan, words| {
+            for word in [189, 191] {
+                words[word] = format!("{}", seconds * scan as f64);
+            }
+        })
+    };
+    assert_eq!(speed(&times(0.05)), None);
+    assert!(speed(&times(0.005)).is_some_and(|speed| (speed - 40.0).abs() < 0.1));
+    assert_eq!(speed(&times(0.0)), None, "a clock that stands still tells no speed");
+}
+
+#[test]
+fn odometry_lines_in_another_unit_are_left_out() {
+    let log = driving(0.0, false);
+    let with_lines = |factor: f64| -> String {
+        let line = |line: &str| {
+            let x = line.split(' ').nth(183).and_then(|x| x.parse::<f64>().ok());
+            let odometry = x.map(|x| format!("ODOM {} 0 0 0 0 0 0 h 0\n", factor * (x + 0.1)));
+            line.to_owned() + "\n" + &odometry.unwrap_or_default()
+        };
+        log.lines().map(line).collect()
+    };
+    let usual = read(&with_lines(1.0)).unwrap();
+    assert_eq!(usual.trajectory.len(), 80);
+    let stray = read(&with_lines(1000.0)).unwrap();
+    assert!(
+        matches!(stray.warnings[..], [LogWarning::StrayOdometry { lines: 40, .. }]),
+        "{:?}",
+        stray.warnings
+    );
+    let alone = read(&log).unwrap();
+    assert_eq!((stray.trajectory, stray.scans[39].moment), (alone.trajectory, 39));
+}
+
+#[test]
+fn a_place_that_no_laser_has_is_not_used() {
+    let log = driving(0.0, false);
+    for (name, value) in [("offset", "350"), ("side_offset", "-200"), ("angular_offset", "180")] {
+        let odd = read(&format!("PARAM robot_frontlaser_{name} {value} h 0\n{log}")).unwrap();
+        assert!(matches!(odd.warnings[..], [LogWarning::OddParameter { .. }]), "{name}: {:?}", odd.warnings);
+        assert_eq!(odd.trajectory, read(&log).unwrap().trajectory);
+    }
+}
+
 /// What the user says of the laser's place counts more than the log.
 #[test]
 fn the_laser_sits_where_it_is_said_to() {

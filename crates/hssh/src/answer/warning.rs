@@ -25,7 +25,7 @@ pub enum WarningKind {
     /// The scans do not move as the odometry does: the laser looks wider, elsewhere or the other way round than was
     /// taken for granted.
     LaserView,
-    /// Odometry that is possible and hardly meant, such as degrees for radians.
+    /// Odometry or scans that are possible and hardly meant, such as degrees for radians or scans that repeat themselves.
     Questionable,
     /// Scans that look like earlier ones where the rest of the log contradicts that.
     ContradictedReturn,
@@ -33,7 +33,7 @@ pub enum WarningKind {
     UnconfirmedReturn,
     /// Scans that lie on nothing that was seen before.
     Lost,
-    /// Odometry that stands still while the scans move, or none.
+    /// Odometry that stands still while the scans move, all along or for a while, or none.
     NoOdometry,
     /// What of a recording is not used, or used otherwise than it says.
     Recording,

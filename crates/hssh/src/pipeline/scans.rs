@@ -70,7 +70,11 @@ pub(super) fn warnings(log: &LaserLog) -> Vec<AnswerWarning> {
             LogWarning::Jump { .. } => WarningKind::OdometryJump,
             LogWarning::RangeLimit { .. } => WarningKind::RangeLimit,
             LogWarning::LimitDoubted { .. } => WarningKind::RangeLimitDoubted,
-            LogWarning::OdometryScale { .. } => WarningKind::Questionable,
+            LogWarning::OdometryScale { .. }
+            | LogWarning::TooFast { .. }
+            | LogWarning::TurnsApart { .. }
+            | LogWarning::ScansRepeat { .. } => WarningKind::Questionable,
+            LogWarning::StrayOdometry { .. } | LogWarning::OddParameter { .. } => WarningKind::MessageLeftOut,
             LogWarning::View { .. } | LogWarning::Facing { .. } | LogWarning::Mirrored => {
                 WarningKind::LaserView
             }
@@ -105,6 +109,7 @@ pub(super) fn warn_of(found: &[SurveyWarning], log: &LaserLog, warnings: &mut Ve
             SurveyWarning::Lost { first, .. } => (WarningKind::Lost, first),
             SurveyWarning::LaserTurned(_) | SurveyWarning::TurnedWithLaser(_) => (WarningKind::LaserPose, 1),
             SurveyWarning::NoOdometry => (WarningKind::NoOdometry, 1),
+            SurveyWarning::OdometryStands { first, .. } => (WarningKind::NoOdometry, first),
             SurveyWarning::Interrupted { scans } => (WarningKind::SurveyInterrupted, scans),
         };
         AnswerWarning::record(warnings, kind, Spot::Scan(number(log, scan - 1)), || warning.to_string());

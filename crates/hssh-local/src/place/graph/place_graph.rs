@@ -67,7 +67,8 @@ pub enum PlaceGraphError {
     NoObstacle,
     /// Free, but nowhere wide enough.
     #[error(
-        "no free space is {narrowest} m wide, the narrowest passage asked for: is the resolution of {resolution} m per cell right?"
+        "no free space is {narrowest} m wide, the narrowest passage asked for: is the resolution of {resolution} m per cell right, and does the \
+         image show what is free as its YAML file says (`negate`, `mode`, the thresholds)?"
     )]
     TooNarrow {
         /// The least width of a passage, in metres.
