@@ -1,11 +1,12 @@
 //! Arrays of numpy as rows of numbers, and back: whatever can be told from its type and shape is checked here.
 
 use std::array::from_fn;
+use std::borrow::Cow;
 
 use hssh_metrics::Pose;
 use nalgebra::{Matrix3, SMatrix};
-use numpy::ndarray::{Ix1, Ix2, Ix3};
-use numpy::{Element, PyArray1, PyReadonlyArrayDyn, PyUntypedArrayMethods};
+use numpy::ndarray::{Ix1, Ix2};
+use numpy::{Element, PyArray1, PyArrayMethods, PyReadonlyArrayDyn, PyUntypedArrayMethods};
 use pyo3::exceptions::PyMemoryError;
 use pyo3::prelude::*;
 
@@ -67,6 +68,22 @@ fn room<T>(name: &str, rows: usize) -> PyResult<Vec<T>> {
     Ok(room)
 }
 
+/// The numbers of an array row by row: as they lie there, if they lie so.
+fn in_order<'a, T: Element + Copy>(
+    name: &str,
+    array: &'a PyReadonlyArrayDyn<'_, T>,
+) -> PyResult<Cow<'a, [T]>> {
+    if array.is_c_contiguous() {
+        return array.as_slice().map(Cow::Borrowed).map_err(argument);
+    }
+    let mut numbers = Vec::new();
+    numbers.try_reserve_exact(array.len()).map_err(|_| {
+        PyMemoryError::new_err(format!("no memory for the {} numbers of {name}", array.len()))
+    })?;
+    numbers.extend(array.as_array().iter());
+    Ok(Cow::Owned(numbers))
+}
+
 /// The rows of an (N, C) array of numbers, all finite.
 pub(crate) fn table<const C: usize>(name: &str, value: &Bound<'_, PyAny>) -> PyResult<Vec<[f64; C]>> {
     let array = array::<f64>(name, value, "fiu", "float64")?;
@@ -76,15 +93,12 @@ pub(crate) fn table<const C: usize>(name: &str, value: &Bound<'_, PyAny>) -> PyR
     if array.ndim() != 2 || array.shape()[1] != C {
         return Err(misshapen(name, &format!("(N, {C})"), array.shape()));
     }
-    let view = array.as_array().into_dimensionality::<Ix2>().map_err(argument)?;
-    let mut rows = room(name, view.nrows())?;
-    for (index, row) in view.outer_iter().enumerate() {
-        let numbers: [f64; C] = from_fn(|column| row[column]);
-        if let Some(column) = numbers.iter().position(|number| !number.is_finite()) {
-            return Err(not_finite(name, &format!("{index}, {column}"), numbers[column]));
-        }
-        rows.push(numbers);
+    let mut rows = room(name, array.shape()[0])?;
+    let numbers = in_order(name, &array)?;
+    if let Some(place) = numbers.iter().position(|number| !number.is_finite()) {
+        return Err(not_finite(name, &format!("{}, {}", place / C, place % C), numbers[place]));
     }
+    rows.extend_from_slice(numbers.as_chunks().0);
     Ok(rows)
 }
 
@@ -127,16 +141,10 @@ pub(crate) fn matrices(name: &str, value: &Bound<'_, PyAny>, count: usize) -> Py
     }
     let wanted = || misshapen(name, &format!("({count}, 3, 3) or (3, 3)"), array.shape());
     match *array.shape() {
-        [3, 3] => {
-            let view = array.as_array().into_dimensionality::<Ix2>().map_err(argument)?;
-            Ok(vec![Matrix3::from_fn(|row, column| view[[row, column]]); count])
-        }
+        [3, 3] => Ok(vec![Matrix3::from_row_slice(&in_order(name, &array)?); count]),
         [given, 3, 3] if given == count => {
-            let view = array.as_array().into_dimensionality::<Ix3>().map_err(argument)?;
             let mut matrices = room(name, count)?;
-            matrices.extend(
-                view.outer_iter().map(|matrix| Matrix3::from_fn(|row, column| matrix[[row, column]])),
-            );
+            matrices.extend(in_order(name, &array)?.chunks_exact(9).map(Matrix3::from_row_slice));
             Ok(matrices)
         }
         _ => Err(wanted()),
@@ -176,22 +184,17 @@ pub(crate) fn indices<const C: usize>(
         let wanted = if C == 1 { "(N,)".to_owned() } else { format!("(N, {C})") };
         return Err(misshapen(name, &wanted, &shape));
     }
-    let view = array.as_array();
-    let flat = view.to_shape((shape[0], C)).map_err(argument)?;
     let mut rows = room(name, shape[0])?;
-    for (index, row) in flat.outer_iter().enumerate() {
-        let mut numbers = [0; C];
-        for (column, number) in numbers.iter_mut().enumerate() {
-            let given = row[column];
-            let fits = u32::try_from(given).ok().filter(|&fit| end.is_none_or(|end| (fit as usize) < end));
-            *number = fits.ok_or_else(|| {
-                let place = if is_row { index.to_string() } else { format!("{index}, {column}") };
-                let most = end.map_or("as large".to_owned(), |end| format!("below {end}"));
-                argument(format!("{name}[{place}] is {given}: indices count from 0 and are {most}"))
-            })?;
-        }
-        rows.push(numbers);
+    let numbers = in_order(name, &array)?;
+    let fits =
+        |&index: &i64| u32::try_from(index).is_ok_and(|index| end.is_none_or(|end| (index as usize) < end));
+    if let Some(place) = numbers.iter().position(|index| !fits(index)) {
+        let given = numbers[place];
+        let place = if is_row { place.to_string() } else { format!("{}, {}", place / C, place % C) };
+        let most = end.map_or("as large".to_owned(), |end| format!("below {end}"));
+        return Err(argument(format!("{name}[{place}] is {given}: indices count from 0 and are {most}")));
     }
+    rows.extend(numbers.as_chunks::<C>().0.iter().map(|row| row.map(|index| index as u32)));
     Ok(rows)
 }
 
@@ -233,7 +236,7 @@ pub(crate) fn shaped<'py, T: Element, const D: usize>(
     numbers: Vec<T>,
     shape: [usize; D],
 ) -> PyResult<Bound<'py, PyAny>> {
-    PyArray1::from_vec(py, numbers).call_method1("reshape", (shape.to_vec(),))
+    PyArray1::from_vec(py, numbers).reshape(&shape[..]).map(Bound::into_any)
 }
 
 /// Poses as an (N, 3) array of x, y, θ.

@@ -5,7 +5,7 @@ use pyo3::prelude::*;
 
 use crate::arrays::{selection, shaped, square, stack};
 use crate::errors::{argument, of_graph};
-use crate::watch::finished;
+use crate::watch::detached;
 
 /// The Gaussian around the poses of a graph. Covariances are of (x, y, θ) in the frame of the graph: m², m·rad, rad².
 #[pyclass(name = "Marginals", module = "hssh", frozen)]
@@ -17,7 +17,7 @@ pub(crate) struct PyMarginals {
 impl PyMarginals {
     /// Of a graph of which every part is anchored, and which has so many poses besides the world.
     pub(crate) fn of(py: Python<'_>, graph: PoseGraph, count: usize) -> PyResult<Self> {
-        let marginals = finished(py, |_| Marginals::new(&graph))?;
+        let marginals = detached(py, || Marginals::new(&graph))?;
         Ok(PyMarginals { marginals: marginals.map_err(|problem| of_graph(problem.into()))?, count })
     }
 
@@ -37,7 +37,7 @@ impl PyMarginals {
     /// The covariance of a pose, shape (3, 3); zero if it is anchored.
     fn covariance<'py>(&self, py: Python<'py>, pose: usize) -> PyResult<Bound<'py, PyAny>> {
         let pose = self.existing(pose)?;
-        square(py, &finished(py, |_| self.marginals.covariance(pose))?)
+        square(py, &detached(py, || self.marginals.covariance(pose))?)
     }
 
     /// The covariances of poses, shape (K, 3, 3).
@@ -53,7 +53,7 @@ impl PyMarginals {
         poses: Option<&Bound<'py, PyAny>>,
     ) -> PyResult<Bound<'py, PyAny>> {
         let chosen = poses.map(|poses| selection("poses", poses, self.count)).transpose()?;
-        let all = finished(py, |_| self.marginals.covariances())?;
+        let all = detached(py, || self.marginals.covariances())?;
         match chosen {
             None => stack(py, &all),
             Some(chosen) => {
@@ -66,7 +66,7 @@ impl PyMarginals {
     /// The covariance of two poses, shape (6, 6), the first in the upper left block.
     fn joint<'py>(&self, py: Python<'py>, first: usize, second: usize) -> PyResult<Bound<'py, PyAny>> {
         let (first, second) = (self.existing(first)?, self.existing(second)?);
-        square(py, &finished(py, |_| self.marginals.joint(first, second))?)
+        square(py, &detached(py, || self.marginals.joint(first, second))?)
     }
 
     /// The pose of `end` in the frame of `start`, shape (3,), and its covariance, shape (3, 3), along the axes of `start`.
@@ -77,7 +77,7 @@ impl PyMarginals {
         end: usize,
     ) -> PyResult<(Bound<'py, PyAny>, Bound<'py, PyAny>)> {
         let (start, end) = (self.existing(start)?, self.existing(end)?);
-        let (Pose { x, y, theta }, covariance) = finished(py, |_| self.marginals.relative(start, end))?;
+        let (Pose { x, y, theta }, covariance) = detached(py, || self.marginals.relative(start, end))?;
         Ok((shaped(py, vec![x, y, theta], [3])?, square(py, &covariance)?))
     }
 

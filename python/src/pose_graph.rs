@@ -21,7 +21,7 @@ use crate::arrays::{indices, matrices, pose, poses, selection, shaped, stack, ta
 use crate::errors::{argument, format_error, interrupted, of_file, of_graph};
 use crate::marginals::PyMarginals;
 use crate::optimized::PySolution;
-use crate::watch::{Stop, calmly, finished, is_interrupted, watched};
+use crate::watch::{attended, calmly, detached, finished, is_interrupted};
 
 /// Poses in the plane with the relative poses measured between them.
 ///
@@ -286,7 +286,7 @@ impl PyPoseGraph {
     /// Poses that could move without any measurement noticing once the parts that float as a whole are held.
     fn floating(&self, py: Python<'_>) -> PyResult<Vec<u32>> {
         let mut graph = self.anchored_graph();
-        finished(py, |_| {
+        detached(py, || {
             let placed = odometry_poses(&graph)?;
             graph.set_poses(placed).expect("there is one pose for each");
             Ok(floating_poses(&graph).iter().map(|pose| pose.0).collect())
@@ -321,7 +321,7 @@ impl PyPoseGraph {
             _ => return Err(argument(format!("how is \"{how}\": write \"chordal\" or \"odometry\""))),
         };
         let graph = self.anchored_graph();
-        let found = finished(py, |_| make(&graph))?.map_err(|problem| of_graph(problem.into()))?;
+        let found = detached(py, || make(&graph))?.map_err(|problem| of_graph(problem.into()))?;
         poses(py, found[..self.count()].iter().copied())
     }
 
@@ -395,7 +395,7 @@ impl PyPoseGraph {
             interrupted: is_interrupted,
         };
         let file = (*self.file).clone();
-        let done = watched(py, &Arc::new(Stop::default()), |_| optimize(file, &options))?;
+        let done = attended(py, || optimize(file, &options))?;
         let optimized: Optimized = done.value.map_err(of_graph)?;
         let solution = PySolution::of(optimized, self.name.clone());
         match done.stopped {

@@ -1,13 +1,14 @@
-//! Long work: it runs beside the interpreter, Ctrl-C stops it with what is known, and a panic becomes an exception.
+//! Work without holding the interpreter: Ctrl-C stops it with what is known, and a panic becomes an exception. Work that asks now and
+//! then whether to stop is done on the thread that wants it; a search is told, and runs in a thread of its own.
 
 use std::any::Any;
-use std::cell::RefCell;
+use std::cell::Cell;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::{RecvTimeoutError, channel};
 use std::thread::{Builder, scope};
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 use hssh::pipeline::Monitor;
 use hssh_local::Reply;
@@ -21,8 +22,8 @@ const PATIENCE: Duration = Duration::from_millis(40);
 const STACK: usize = 8 << 20;
 
 thread_local! {
-    /// What stops the work of this thread.
-    static STOP: RefCell<Option<Arc<Stop>>> = const { RefCell::new(None) };
+    /// Who asks for signals while this thread works.
+    static LOOKOUT: Cell<Option<Lookout>> = const { Cell::new(None) };
 }
 
 /// Whether somebody wants the work to stop.
@@ -55,9 +56,49 @@ impl Stop {
     }
 }
 
-/// Whether somebody wants the work of this thread to stop.
+/// Asks the interpreter for signals while a thread works that does not hold it.
+struct Lookout {
+    /// When it last asked.
+    asked: Instant,
+    /// The exception that a signal raised.
+    signal: Option<PyErr>,
+}
+
+impl Lookout {
+    fn new() -> Self {
+        Lookout { asked: Instant::now(), signal: None }
+    }
+
+    /// Whether there was a signal.
+    fn sees_signal(&mut self) -> bool {
+        if self.signal.is_none() && self.asked.elapsed() >= PATIENCE {
+            self.signal = Python::attach(|py| py.check_signals()).err();
+            self.asked = Instant::now();
+        }
+        self.signal.is_some()
+    }
+}
+
+/// Whether a signal asks the [`attended`] work of this thread to stop.
 pub(crate) fn is_interrupted() -> bool {
-    STOP.with_borrow(|stop| stop.as_ref().is_some_and(|stop| stop.is_asked()))
+    // Handlers of signals may do such work themselves, with a lookout of their own.
+    let Some(mut lookout) = LOOKOUT.take() else { return false };
+    let is_interrupted = lookout.sees_signal();
+    LOOKOUT.set(Some(lookout));
+    is_interrupted
+}
+
+/// Does work on this thread that asks now and then whether it [`is_interrupted`].
+pub(crate) fn attended<T: Send>(py: Python<'_>, work: impl FnOnce() -> T + Send) -> PyResult<Done<T>> {
+    let around = LOOKOUT.replace(Some(Lookout::new()));
+    let value = detached(py, work);
+    let lookout = LOOKOUT.replace(around);
+    Ok(Done { value: value?, stopped: lookout.and_then(|lookout| lookout.signal) })
+}
+
+/// Does work on this thread that soon is through.
+pub(crate) fn detached<T: Send>(py: Python<'_>, work: impl FnOnce() -> T + Send) -> PyResult<T> {
+    calmly(|| Ok(py.detach(work)))
 }
 
 /// What came of work.
@@ -78,10 +119,7 @@ pub(crate) fn watched<T: Send>(
             let (sender, receiver) = channel();
             let begun =
                 Builder::new().name("hssh".to_owned()).stack_size(STACK).spawn_scoped(scope, move || {
-                    STOP.set(Some(Arc::clone(stop)));
-                    let done = catch_unwind(AssertUnwindSafe(|| work(stop)));
-                    STOP.set(None);
-                    let _ = sender.send(done);
+                    let _ = sender.send(catch_unwind(AssertUnwindSafe(|| work(stop))));
                 });
             begun.map_err(|problem| error(Kind::Internal, format!("no thread can be started: {problem}")))?;
             let mut stopped = None;

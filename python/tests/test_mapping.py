@@ -2,9 +2,7 @@
 
 import dataclasses
 import json
-import os
 import pickle
-import signal
 import threading
 import time
 import xml.etree.ElementTree as ElementTree
@@ -13,6 +11,7 @@ from pathlib import Path
 import hssh
 import numpy as np
 import pytest
+from signals import interrupting
 from worlds import explored, snake
 
 FIXTURES = Path(__file__).parents[2] / "fixtures"
@@ -102,18 +101,6 @@ def test_limits_stop_a_search_with_what_it_knows():
     assert answer.search.stop == "memory_limit"
     answer = hssh.map(exploration, travels=6)
     assert answer.input.considered == 6
-
-
-def interrupting(seconds, work):
-    """What work raises that a signal interrupts."""
-    timer = threading.Timer(seconds, lambda: os.kill(os.getpid(), signal.SIGINT))
-    timer.start()
-    try:
-        with pytest.raises(hssh.Interrupted) as raised:
-            work()
-        return raised.value
-    finally:
-        timer.cancel()
 
 
 def test_control_c_stops_a_search_and_keeps_what_is_known():

@@ -2,6 +2,8 @@
 
 import os
 import pickle
+import signal
+import time
 import xml.etree.ElementTree as ElementTree
 from pathlib import Path
 
@@ -9,6 +11,7 @@ import hssh
 import numpy as np
 import pytest
 from scipy.optimize import least_squares
+from signals import interrupting
 
 FIXTURES = Path(__file__).parents[2] / "fixtures"
 DATA = os.environ.get("HSSH_DATA")
@@ -150,6 +153,41 @@ def test_a_graph_without_poses_is_laid_out_by_its_measurements():
         free.optimize(start="poses")
     assert free._repr_svg_() is None
     assert pickle.loads(pickle.dumps(free)).optimize().chi2 == pytest.approx(placed.chi2, rel=1e-9)
+
+
+def endless_descent():
+    """Relaxes a ring that dead reckoning leaves open, pose by pose, until somebody stops it."""
+    count = 5000
+    edges = [(index, (index + 1) % count) for index in range(count)]
+    ring = hssh.PoseGraph(None, edges, np.full((count, 3), [1.0, 0.0, 1.9 * np.pi / count]), np.eye(3))
+    return ring.optimize(method="relaxation", start="odometry", max_iterations=10**9, tolerance=1e-300)
+
+
+def test_control_c_stops_a_descent_and_keeps_the_poses_reached():
+    begun = time.monotonic()
+    stop = interrupting(0.3, endless_descent)
+    assert time.monotonic() - begun < 20
+    assert isinstance(stop.partial, hssh.PoseGraphSolution) and not stop.partial.converged
+    assert stop.partial.chi2 < stop.partial.initial_chi2 and "interrupted" in stop.partial.ending
+
+
+def test_what_handles_a_signal_may_optimize_too():
+    found = []
+
+    def handle(number, frame):
+        found.append(hssh.PoseGraph(None, [(0, 1), (0, 1)], [(1, 0, 0), (3, 0, 0)], np.eye(3)).optimize().chi2)
+        if len(found) == 2:
+            raise KeyboardInterrupt
+
+    usual = signal.signal(signal.SIGALRM, handle)
+    signal.setitimer(signal.ITIMER_REAL, 0.1, 0.2)
+    try:
+        with pytest.raises(hssh.Interrupted):
+            endless_descent()
+    finally:
+        signal.setitimer(signal.ITIMER_REAL, 0)
+        signal.signal(signal.SIGALRM, usual)
+    assert found == [2.0, 2.0]
 
 
 class TestArrays:
