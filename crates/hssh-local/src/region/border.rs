@@ -201,10 +201,10 @@ fn walls(labels: &[u32], ground: &Ground, thickest: f64) -> BTreeMap<Pair, u32> 
     let mut above: Vec<Option<(usize, u32)>> = vec![None; width];
     for row in 0..height {
         let mut before = None;
-        for column in 0..width {
+        for (column, above) in above.iter_mut().enumerate() {
             let index = row * width + column;
             look(&mut before, column, index, 1);
-            look(&mut above[column], row, index, width);
+            look(above, row, index, width);
         }
     }
     walls
