@@ -21,6 +21,8 @@ const DRAWINGS: [(f64, f64); 4] = [(0.0, 0.05), (1.5, 0.05), (20.0, 0.05), (3.0,
 /// The robot looks around at spots no nearer to one another than this, and no nearer to obstacles than that, in metres.
 const SPACING: f64 = 2.0;
 const ROBOT: f64 = 0.3;
+/// How many spots are tried: enough that hardly any is left where one would fit in.
+const TRIES: usize = 40_000;
 /// The laser's beams, its reach in metres, and the deviations of a range and of the position (metres) and heading (radians) in
 /// which a scan is drawn.
 const BEAMS: u32 = 360;
@@ -262,7 +264,7 @@ fn spots(plan: &OccupancyGrid, random: &mut ChaCha8Rng) -> Vec<[f64; 2]> {
     let cells: Vec<Cell> =
         lattice.cells().filter(|&cell| (ROBOT..f64::INFINITY).contains(&field.clearance(cell))).collect();
     let mut spots: Vec<[f64; 2]> = Vec::new();
-    for _ in 0..cells.len().min(4_000) {
+    for _ in 0..cells.len().min(TRIES) {
         let spot = lattice.center(cells[random.random_range(0..cells.len())]);
         if spots.iter().all(|other| (other[0] - spot[0]).hypot(other[1] - spot[1]) >= SPACING) {
             spots.push(spot);
@@ -271,14 +273,15 @@ fn spots(plan: &OccupancyGrid, random: &mut ChaCha8Rng) -> Vec<[f64; 2]> {
     spots
 }
 
-/// How far a beam goes, in metres, and whether something ends it.
+/// How far a beam goes, in metres, and whether something ends it: whatever is not free does, as in the regions of the plan
+/// itself, for plans have walls that are gray.
 fn range(plan: &OccupancyGrid, [x, y]: [f64; 2], bearing: f64) -> (f64, bool) {
     let (sin, cos) = bearing.sin_cos();
     let step = RESOLUTION / 2.0;
     let steps = (REACH / step) as u32;
     let along = |step_number: &u32| f64::from(*step_number) * step;
     let end = (1..steps)
-        .find(|number| plan.at([x + along(number) * cos, y + along(number) * sin]) == Occupancy::Occupied);
+        .find(|number| plan.at([x + along(number) * cos, y + along(number) * sin]) != Occupancy::Free);
     end.map_or((REACH, false), |number| (along(&number), true))
 }
 
