@@ -5,6 +5,8 @@ use crate::grid::{Cell, Lattice};
 
 /// Marks a cell without any obstacle to measure from.
 const NOWHERE: u32 = u32::MAX;
+/// The same for a row or a column: a lattice has none with that number.
+const NO_LINE: u16 = u16::MAX;
 
 /// For each cell of a lattice its nearest obstacle.
 ///
@@ -14,8 +16,8 @@ pub struct DistanceField {
     lattice: Lattice,
     /// Squared distance in cells between the middles of a cell and of its nearest obstacle.
     squared: Vec<u32>,
-    /// The nearest obstacle's index in the lattice.
-    nearest: Vec<u32>,
+    /// The nearest obstacle's column; its row follows from the distance.
+    columns: Vec<u16>,
 }
 
 impl DistanceField {
@@ -24,19 +26,12 @@ impl DistanceField {
     pub fn new(lattice: Lattice, is_obstacle: impl Fn(usize) -> bool) -> Self {
         let rows = nearest_rows(&lattice, is_obstacle);
         let mut field =
-            DistanceField { lattice, squared: vec![0; lattice.len()], nearest: vec![0; lattice.len()] };
+            DistanceField { lattice, squared: vec![0; lattice.len()], columns: vec![0; lattice.len()] };
+        let width = lattice.width() as usize;
+        let lines = field.squared.chunks_exact_mut(width).zip(field.columns.chunks_exact_mut(width));
         let mut envelope = Envelope::default();
-        for row in 0..lattice.height() {
-            let first = lattice.index(Cell { column: 0, row });
-            let range = first..first + lattice.width() as usize;
-            envelope.build(row, &rows[range.clone()]);
-            envelope.write(
-                row,
-                &lattice,
-                &rows[range.clone()],
-                &mut field.squared[range.clone()],
-                &mut field.nearest[range],
-            );
+        for ((row, rows), (squared, columns)) in (0..).zip(rows.chunks_exact(width)).zip(lines) {
+            envelope.fill(row, rows, squared, columns);
         }
         field
     }
@@ -57,8 +52,12 @@ impl DistanceField {
     /// The nearest obstacle of a cell; `None` if there is no obstacle at all.
     #[must_use]
     pub fn nearest(&self, cell: Cell) -> Option<Cell> {
-        let nearest = self.nearest[self.lattice.index(cell)];
-        (nearest != NOWHERE).then(|| self.lattice.cell(nearest as usize))
+        let squared = self.squared_cells(cell)?;
+        let column = u32::from(self.columns[self.lattice.index(cell)]);
+        let off = (squared - column.abs_diff(cell.column).pow(2)).isqrt();
+        let below = cell.row.checked_sub(off).map(|row| Cell { column, row });
+        let is_obstacle = |site: &Cell| self.squared[self.lattice.index(*site)] == 0;
+        Some(below.filter(is_obstacle).unwrap_or(Cell { column, row: cell.row + off }))
     }
 
     /// The squared distance in cells of the cell with an index; without any obstacle, the greatest number.
@@ -80,37 +79,48 @@ impl DistanceField {
 
     /// The same of the cell with an index.
     pub(crate) fn clearance_at(&self, index: usize) -> f64 {
-        match self.squared[index] {
+        self.clearance_of(self.squared[index])
+    }
+
+    /// The same of a cell with that squared distance.
+    pub(crate) fn clearance_of(&self, squared: u32) -> f64 {
+        match squared {
             NOWHERE => f64::INFINITY,
             squared => (f64::from(squared).sqrt() - 0.5).max(0.0) * self.lattice.resolution(),
         }
     }
 }
 
-/// First phase: for each cell, the row of the nearest obstacle in its column.
-fn nearest_rows(lattice: &Lattice, is_obstacle: impl Fn(usize) -> bool) -> Vec<u32> {
+/// First phase: for each cell, the row of the nearest obstacle in its column, the lower one of two.
+fn nearest_rows(lattice: &Lattice, is_obstacle: impl Fn(usize) -> bool) -> Vec<u16> {
     let width = lattice.width() as usize;
-    let mut rows = vec![NOWHERE; lattice.len()];
-    for index in 0..lattice.len() {
-        if is_obstacle(index) {
-            rows[index] = (index / width) as u32;
-        } else if index >= width {
-            rows[index] = rows[index - width];
+    let mut rows = vec![NO_LINE; lattice.len()];
+    for row in 0..lattice.height() as usize {
+        let (below, here) = rows.split_at_mut(row * width);
+        let below = &below[row.saturating_sub(1) * width..];
+        for (column, nearest) in here[..width].iter_mut().enumerate() {
+            if is_obstacle(row * width + column) {
+                *nearest = row as u16;
+            } else if row > 0 {
+                *nearest = below[column];
+            }
         }
     }
-    for index in (0..lattice.len() - width).rev() {
-        let above = rows[index + width];
-        let row = (index / width) as u32;
-        let below = rows[index];
-        let is_obstacle_above = above != NOWHERE && above > row;
-        if is_obstacle_above && (below == NOWHERE || above - row < row - below) {
-            rows[index] = above;
+    for row in (0..lattice.height() as usize - 1).rev() {
+        let (here, above) = rows[row * width..].split_at_mut(width);
+        let row = row as u16;
+        for (nearest, &above) in here.iter_mut().zip(&above[..width]) {
+            let is_obstacle_above = above != NO_LINE && above > row;
+            let is_nearer = *nearest == NO_LINE || above.wrapping_sub(row) < row.wrapping_sub(*nearest);
+            if is_obstacle_above && is_nearer {
+                *nearest = above;
+            }
         }
     }
     rows
 }
 
-/// Second phase: the lower envelope of the parabolas of one row, one for each column with an obstacle.
+/// Second phase: the lower envelope of parabolas along a row, one for each column with an obstacle.
 #[derive(Default)]
 struct Envelope {
     /// Column and squared vertical distance of each parabola of the envelope.
@@ -120,10 +130,28 @@ struct Envelope {
 }
 
 impl Envelope {
-    fn build(&mut self, row: u32, rows: &[u32]) {
+    /// Fills in a row. Obstacles in it part it: what is beyond one is nearer to that than to anything behind it.
+    fn fill(&mut self, row: u16, rows: &[u16], squared: &mut [u32], columns: &mut [u16]) {
+        let mut start = 0;
+        while start < rows.len() {
+            if rows[start] == row {
+                (squared[start], columns[start]) = (0, start as u16);
+                start += 1;
+                continue;
+            }
+            let free = rows[start..].iter().take_while(|&&nearest| nearest != row).count();
+            let end = start + free;
+            self.build(row, start.saturating_sub(1), &rows[start.saturating_sub(1)..rows.len().min(end + 1)]);
+            self.write(start as i64, &mut squared[start..end], &mut columns[start..end]);
+            start = end;
+        }
+    }
+
+    /// The envelope of columns from a first one on.
+    fn build(&mut self, row: u16, first: usize, rows: &[u16]) {
         self.parabolas.clear();
         self.from.clear();
-        for (column, &nearest) in rows.iter().enumerate().filter(|&(_, &nearest)| nearest != NOWHERE) {
+        for (column, &nearest) in (first..).zip(rows).filter(|&(_, &nearest)| nearest != NO_LINE) {
             let added = (column as i64, i64::from(nearest.abs_diff(row)).pow(2));
             let mut from = 0;
             while let (Some(&top), Some(&top_from)) = (self.parabolas.last(), self.from.last()) {
@@ -140,30 +168,30 @@ impl Envelope {
         }
     }
 
-    fn write(&self, row: u32, lattice: &Lattice, rows: &[u32], squared: &mut [u32], nearest: &mut [u32]) {
+    fn write(&self, start: i64, squared: &mut [u32], columns: &mut [u16]) {
         if self.parabolas.is_empty() {
             squared.fill(NOWHERE);
-            nearest.fill(NOWHERE);
+            columns.fill(NO_LINE);
             return;
         }
-        debug_assert!(row < lattice.height());
         let mut lowest = 0;
-        for column in 0..rows.len() {
-            while self.from.get(lowest + 1).is_some_and(|&from| from <= column as i64) {
+        for (column, (squared, nearest)) in (start..).zip(squared.iter_mut().zip(columns)) {
+            while self.from.get(lowest + 1).is_some_and(|&from| from <= column) {
                 lowest += 1;
             }
             let (bottom, vertical) = self.parabolas[lowest];
-            squared[column] = ((column as i64 - bottom).pow(2) + vertical) as u32;
-            let site = Cell { column: bottom as u32, row: rows[bottom as usize] };
-            nearest[column] = lattice.index(site) as u32;
+            *squared = ((column - bottom).pow(2) + vertical) as u32;
+            *nearest = bottom as u16;
         }
     }
 }
 
 /// The first column at which the parabola of the right one of two columns is strictly below the other.
 fn first_column_below((left, left_squared): (i64, i64), (right, right_squared): (i64, i64)) -> i64 {
-    let numerator = right * right - left * left + right_squared - left_squared;
-    numerator.div_euclid(2 * (right - left)) + 1
+    // Beside the left one, so that the numbers are small.
+    let apart = right - left;
+    let numerator = apart * apart + right_squared - left_squared;
+    left + numerator.div_euclid(2 * apart) + 1
 }
 
 #[cfg(test)]

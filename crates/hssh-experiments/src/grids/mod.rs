@@ -6,6 +6,7 @@ mod doors;
 mod floor;
 mod plans;
 mod rooms;
+mod scanned;
 mod segmentation;
 mod speed;
 mod stability;
@@ -26,6 +27,7 @@ pub(crate) fn run(flags: &Grids) -> Result<(), Box<dyn Error>> {
     println!("{}", rooms::report(&maps.join("gdc3"))?);
     println!("{}", floor::report(&maps.join("gdc3"))?);
     println!("{}", plans::report(&maps.join("rooms"))?);
+    println!("{}", scanned::report(&maps.join("rooms"))?);
     println!("{}", steadiness::report(&maps.join("rooms"))?);
     println!("{}", aces::report(&flags.data)?);
     println!("{}", stability::report(&flags.data)?);

@@ -61,6 +61,13 @@ impl Rooms {
         }
         Rooms { room_of, count }
     }
+
+    /// How many cells each room has.
+    pub(super) fn areas(&self) -> impl Iterator<Item = usize> {
+        let mut cells = vec![0; self.count];
+        self.room_of.iter().flatten().for_each(|&room| cells[room as usize] += 1);
+        cells.into_iter()
+    }
 }
 
 impl Agreement {

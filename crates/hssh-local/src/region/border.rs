@@ -183,24 +183,29 @@ fn walls(labels: &[u32], ground: &Ground, thickest: f64) -> BTreeMap<Pair, u32> 
     let (width, height) = (lattice.width() as usize, lattice.height() as usize);
     let most = (thickest / lattice.resolution()).round() as usize;
     let mut walls = BTreeMap::new();
-    let mut across = |start: usize, step: usize, length: usize| {
-        let mut last: Option<(usize, u32)> = None;
-        for position in 0..length {
-            let label = labels[start + position * step];
-            if label == NO_PIECE {
-                continue;
-            }
-            if let Some((before, other)) = last
-                && other != label
-                && (2..=most + 1).contains(&(position - before))
-                && (before + 1..position).any(|between| ground.is_wall(start + between * step))
-            {
-                *walls.entry(pair(label, other)).or_default() += 1;
-            }
-            last = Some((position, label));
+    // The last cell with a label in a line so far, with the position of the next one.
+    let mut look = |last: &mut Option<(usize, u32)>, position: usize, index: usize, step: usize| {
+        let label = labels[index];
+        if label == NO_PIECE {
+            return;
         }
+        if let Some((before, other)) = *last
+            && other != label
+            && (2..=most + 1).contains(&(position - before))
+            && (1..position - before).any(|back| ground.is_wall(index - back * step))
+        {
+            *walls.entry(pair(label, other)).or_default() += 1;
+        }
+        *last = Some((position, label));
     };
-    (0..height).for_each(|row| across(row * width, 1, width));
-    (0..width).for_each(|column| across(column, width, height));
+    let mut above: Vec<Option<(usize, u32)>> = vec![None; width];
+    for row in 0..height {
+        let mut before = None;
+        for (column, above) in above.iter_mut().enumerate() {
+            let index = row * width + column;
+            look(&mut before, column, index, 1);
+            look(above, row, index, width);
+        }
+    }
     walls
 }

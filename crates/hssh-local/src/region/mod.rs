@@ -4,6 +4,7 @@
 //! small is furniture. Then free space is [flooded](flood) into pieces that are parted by every constriction, and the
 //! pieces are [merged](merge) again where a cut is not worth it, by one measure of [all that lies between](border).
 
+mod bits;
 mod border;
 mod door;
 mod flood;

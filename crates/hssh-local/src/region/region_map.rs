@@ -34,11 +34,11 @@ impl RegionMap {
     /// If nothing of the grid is known or free, or nothing is wide enough.
     pub fn new(grid: &OccupancyGrid, options: &RegionOptions) -> Result<Self, PlaceGraphError> {
         let ground = Ground::new(grid, options);
-        if ground.free().is_empty() {
-            return Err(PlaceGraphError::of(grid, ground.free(), options.narrowest));
-        }
         let field = ground.field();
         let least = options.narrowest / 2.0 / grid.lattice().resolution();
+        if !is_any_as_wide(field, options.narrowest / 2.0) {
+            return Err(PlaceGraphError::of(grid, field, options.narrowest));
+        }
         let pieces = flood::flood(field, Joining { as_wide: options.as_wide, least });
         let extents = extents(&pieces, field);
         let mut islands = Islands::new(&ground, options);
@@ -118,6 +118,11 @@ impl RegionMap {
     pub fn region(&self, region: RegionNumber) -> &Region {
         &self.regions[region.index()]
     }
+}
+
+/// Whether a robot of a radius in metres fits in anywhere, where there are obstacles.
+fn is_any_as_wide(field: &DistanceField, radius: f64) -> bool {
+    (0..field.lattice().len()).any(|index| field.is_free_at(index) && field.clearance_at(index) >= radius)
 }
 
 /// Of the pieces that stand for a region, which are regions: they lead on, or are wide enough to be more than the inside of

@@ -6,6 +6,9 @@ use super::ground::Ground;
 /// For each region the part of its rim that is wall; the rest was never looked at. The rim is what is nearest to where the
 /// middle of a robot may just be that fits through a gap of `narrowest` metres: rays of a laser are none.
 pub(super) fn explored(labels: &[u32], regions: usize, ground: &Ground, narrowest: f64) -> Vec<f64> {
+    if ground.is_all_wall() {
+        return vec![1.0; regions];
+    }
     let field = ground.field();
     let lattice = *field.lattice();
     let least = narrowest / 2.0;

@@ -18,12 +18,12 @@ pub(super) struct Link {
 
 /// Links all terminals whose parts of the window touch, and leaves out those that are no shorter, by the factor
 /// `detour`, than what is left.
-pub(super) fn links(window: &Window, terminals: &[usize], comfort: f64, detour: f64) -> Vec<Link> {
-    let reach = Reach::new(window, terminals, comfort);
+pub(super) fn links(window: &Window, terminals: &[usize], detour: f64) -> Vec<Link> {
+    let reach = Reach::new(window, terminals);
     let mut meetings: BTreeMap<[usize; 2], (u64, [usize; 2])> = BTreeMap::new();
     for position in 0..window.len() {
         let Some(here) = reach.source(position) else { continue };
-        for (near, _) in window.around(position) {
+        for near in window.around(position) {
             let Some(there) = reach.source(near).filter(|&there| here < there) else { continue };
             let cost = u64::from(reach.cost(position)) + u64::from(reach.cost(near));
             let meeting = meetings.entry([here, there]).or_insert((u64::MAX, [position, near]));

@@ -2,11 +2,8 @@
 
 use super::window::Window;
 
-/// The cost of a step straight on and across a corner where there is comfortable room.
-const STRAIGHT: u32 = 5;
-const DIAGONAL: u32 = 7;
-/// How many times that a step costs at most.
-const DEAREST: u32 = 12;
+/// More than a step costs at most, so that so many lists hold all that is waiting.
+const LISTS: usize = 1 << 7;
 const UNREACHED: u32 = u32::MAX;
 
 /// What is known after all cells were reached that can be.
@@ -19,15 +16,15 @@ pub(super) struct Reach {
 }
 
 impl Reach {
-    /// From some positions of a window; where obstacles are nearer than `comfort` metres, steps are dearer.
-    pub(super) fn new(window: &Window, starts: &[usize], comfort: f64) -> Self {
+    /// From some positions of a window.
+    pub(super) fn new(window: &Window, starts: &[usize]) -> Self {
         let mut reach = Reach {
             cost: vec![UNREACHED; window.len()],
             source: vec![UNREACHED; window.len()],
             before: vec![UNREACHED; window.len()],
         };
         // A ring of lists, one for each cost that can be waiting.
-        let mut waiting: Vec<Vec<usize>> = vec![Vec::new(); (DIAGONAL * DEAREST + 1) as usize];
+        let mut waiting: Vec<Vec<usize>> = vec![Vec::new(); LISTS];
         for (number, &start) in starts.iter().enumerate() {
             if reach.cost[start] == UNREACHED {
                 (reach.cost[start], reach.source[start]) = (0, number as u32);
@@ -36,23 +33,20 @@ impl Reach {
         }
         let (mut cost, mut empty) = (0, 0);
         while empty < waiting.len() {
-            let slot = cost as usize % waiting.len();
+            let slot = cost as usize % LISTS;
             empty += 1;
             while let Some(position) = waiting[slot].pop() {
                 if reach.cost[position] != cost {
                     continue;
                 }
                 empty = 0;
-                for (near, is_diagonal) in window.around(position) {
-                    let room = f64::from(window.clearance(near));
-                    let dearness = (comfort / room).clamp(1.0, f64::from(DEAREST));
-                    let step = if is_diagonal { DIAGONAL } else { STRAIGHT };
-                    let next = cost + (f64::from(step) * dearness).round() as u32;
+                for (near, step) in window.steps(position) {
+                    let next = cost + step;
                     if next < reach.cost[near] {
                         reach.cost[near] = next;
                         reach.source[near] = reach.source[position];
                         reach.before[near] = position as u32;
-                        waiting[next as usize % (DIAGONAL * DEAREST + 1) as usize].push(near);
+                        waiting[next as usize % LISTS].push(near);
                     }
                 }
             }

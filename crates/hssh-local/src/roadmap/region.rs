@@ -68,7 +68,7 @@ pub(super) fn add_region(
         let least = (options.middle * about.width / 2.0) as f32;
         terminals.extend(window.waypoints(&terminals, arm as usize, least));
     }
-    let links = links(&window, &terminals, options.comfort, options.detour);
+    let links = links(&window, &terminals, options.detour);
     let pruning = Pruning { fixed, shortest: 2.0 * options.radius / cell, arm };
     let network = network(&window, &terminals, &links, pruning);
     let spots = match about.kind {

@@ -22,13 +22,21 @@ pub(super) fn bounds(map: &RegionMap) -> Vec<Bounds> {
     bounds
 }
 
-/// A window on one region.
+/// The cost of a step straight on and across a corner where there is comfortable room.
+const STRAIGHT: f64 = 5.0;
+const DIAGONAL: f64 = 7.0;
+/// How many times that a step costs at most.
+const DEAREST: f64 = 12.0;
+
+/// A window on one region, with a frame of one cell where no robot fits in.
 pub(super) struct Window {
+    /// The cell at the first position within the frame.
     low: Cell,
     width: usize,
-    height: usize,
     /// The clearance of each cell that a robot fits into, in metres; 0 of others.
     clearance: Vec<f32>,
+    /// What a step costs to each cell that a robot fits into, straight on and across a corner.
+    costs: Vec<[u8; 2]>,
     /// Which cells are in the region, and not beyond one of its passages.
     is_own: Vec<bool>,
 }
@@ -50,19 +58,25 @@ impl Window {
             column: (high.column + beyond).min(lattice.width() - 1),
             row: (high.row + beyond).min(lattice.height() - 1),
         };
-        let (width, height) = ((high.column - low.column) as usize + 1, (high.row - low.row) as usize + 1);
-        let (clearance, is_own) = (vec![0.0; width * height], vec![false; width * height]);
-        let mut window = Window { low, width, height, clearance, is_own };
-        let fits = |cell: Cell| {
+        let (width, height) = ((high.column - low.column) as usize + 3, (high.row - low.row) as usize + 3);
+        let len = width * height;
+        let (clearance, costs, is_own) = (vec![0.0; len], vec![[0; 2]; len], vec![false; len]);
+        let mut window = Window { low, width, clearance, costs, is_own };
+        let look = |window: &mut Window, cell: Cell, position: usize| {
             let clearance = field.clearance(cell).min(1e6);
-            if clearance >= options.radius { clearance as f32 } else { 0.0 }
+            if clearance >= options.radius {
+                let clearance = clearance as f32;
+                let dearness = (options.comfort / f64::from(clearance)).clamp(1.0, DEAREST);
+                window.costs[position] = [STRAIGHT, DIAGONAL].map(|step| (step * dearness).round() as u8);
+                window.clearance[position] = clearance;
+            }
         };
         for row in low.row..=high.row {
             for column in low.column..=high.column {
                 let cell = Cell { column, row };
                 if map.region_of(cell) == Some(region) {
                     let position = window.position(cell);
-                    window.clearance[position] = fits(cell);
+                    look(&mut window, cell, position);
                     window.is_own[position] = true;
                 }
             }
@@ -73,7 +87,7 @@ impl Window {
                     let cell = Cell { column, row };
                     if window.contains(cell) {
                         let position = window.position(cell);
-                        window.clearance[position] = fits(cell);
+                        look(&mut window, cell, position);
                     }
                 }
             }
@@ -83,19 +97,19 @@ impl Window {
 
     fn contains(&self, cell: Cell) -> bool {
         let (column, row) = (cell.column.wrapping_sub(self.low.column), cell.row.wrapping_sub(self.low.row));
-        (column as usize) < self.width && (row as usize) < self.height
+        (column as usize) < self.width - 2 && (row as usize) < self.len() / self.width - 2
     }
 
     /// The position of a cell in the window; it must be in it.
     pub(super) fn position(&self, cell: Cell) -> usize {
-        (cell.row - self.low.row) as usize * self.width + (cell.column - self.low.column) as usize
+        (cell.row - self.low.row + 1) as usize * self.width + (cell.column - self.low.column + 1) as usize
     }
 
-    /// The cell at a position.
+    /// The cell at a position within the frame.
     pub(super) fn cell(&self, position: usize) -> Cell {
         Cell {
-            column: self.low.column + (position % self.width) as u32,
-            row: self.low.row + (position / self.width) as u32,
+            column: self.low.column + (position % self.width) as u32 - 1,
+            row: self.low.row + (position / self.width) as u32 - 1,
         }
     }
 
@@ -109,17 +123,20 @@ impl Window {
         self.clearance[position]
     }
 
-    /// The eight positions around one at which a robot fits in, and whether each is across a corner.
-    pub(super) fn around(&self, position: usize) -> impl Iterator<Item = (usize, bool)> {
-        let (column, row) = (position % self.width, position / self.width);
-        let steps = (-1..=1_isize).flat_map(|rows| (-1..=1_isize).map(move |columns| (columns, rows)));
-        steps.filter_map(move |(columns, rows)| {
-            let near_column = column.checked_add_signed(columns).filter(|&near| near < self.width)?;
-            let near_row = row.checked_add_signed(rows).filter(|&near| near < self.height)?;
-            let near = near_row * self.width + near_column;
-            ((columns, rows) != (0, 0) && self.clearance[near] > 0.0)
-                .then_some((near, columns != 0 && rows != 0))
-        })
+    /// The eight positions around one at which a robot fits in; it must be within the frame.
+    pub(super) fn around(&self, position: usize) -> impl Iterator<Item = usize> {
+        let (below, above) = (position - self.width, position + self.width);
+        let around = [below - 1, below, below + 1, position - 1, position + 1, above - 1, above, above + 1];
+        around.into_iter().filter(|&near| self.clearance[near] > 0.0)
+    }
+
+    /// The same, each with the cost of the step there.
+    pub(super) fn steps(&self, position: usize) -> impl Iterator<Item = (usize, u32)> {
+        let (below, above) = (position - self.width, position + self.width);
+        let straight = [below, position - 1, position + 1, above].map(|near| (near, 0));
+        let diagonal = [below - 1, below + 1, above - 1, above + 1].map(|near| (near, 1));
+        let steps = straight.into_iter().chain(diagonal);
+        steps.map(|(near, kind)| (near, u32::from(self.costs[near][kind]))).filter(|&(_, cost)| cost > 0)
     }
 
     /// Positions in the region as wide as `least` metres, so many that each such position is within `spacing` cells of one of them or
@@ -153,7 +170,7 @@ impl Window {
         for _ in 0..steps {
             let mut next = Vec::new();
             for position in rim {
-                for (near, _) in self.around(position) {
+                for near in self.around(position) {
                     if std::mem::replace(&mut covered[near], number) != number {
                         next.push(near);
                     }
@@ -165,9 +182,7 @@ impl Window {
 
     /// The widest position in the region, in the largest connected part, the one nearest to the middle of it where several are.
     pub(super) fn middle(&self, comfort: f64) -> Option<usize> {
-        let mut parts = self.parts();
-        parts.iter_mut().for_each(|part| part.retain(|&position| self.is_own[position]));
-        let largest = parts.into_iter().max_by_key(Vec::len)?;
+        let largest = self.largest_part()?;
         let count = largest.len() as f64;
         let sum = largest
             .iter()
@@ -184,10 +199,10 @@ impl Window {
         })
     }
 
-    /// The connected parts.
-    fn parts(&self) -> Vec<Vec<usize>> {
+    /// Of the connected part with the most cells of the region, these.
+    fn largest_part(&self) -> Option<Vec<usize>> {
         let mut is_seen = vec![false; self.len()];
-        let mut parts = Vec::new();
+        let mut largest: Option<Vec<usize>> = None;
         for start in 0..self.len() {
             if self.clearance[start] == 0.0 || is_seen[start] {
                 continue;
@@ -196,15 +211,18 @@ impl Window {
             let mut part = vec![start];
             let mut at = 0;
             while at < part.len() {
-                for (near, _) in self.around(part[at]) {
+                for near in self.around(part[at]) {
                     if !std::mem::replace(&mut is_seen[near], true) {
                         part.push(near);
                     }
                 }
                 at += 1;
             }
-            parts.push(part);
+            part.retain(|&position| self.is_own[position]);
+            if largest.as_ref().is_none_or(|largest| part.len() >= largest.len()) {
+                largest = Some(part);
+            }
         }
-        parts
+        largest
     }
 }

@@ -1,5 +1,9 @@
 //! Clutter: what stands free, is small, and is no part of a wall.
 
+use std::ops::Range;
+
+use rustc_hash::FxHashMap;
+
 use super::mask::Mask;
 use crate::grid::Cell;
 
@@ -22,36 +26,84 @@ pub(super) fn remove_clutter(obstacles: &mut Mask, longest: u32, apart: u32) {
 
 /// The connected groups of at most `longest` cells along both axes that do not touch the border.
 fn small_groups(obstacles: &Mask, longest: u32) -> Vec<Vec<usize>> {
-    let mut is_seen = vec![false; obstacles.positions()];
-    let mut small = Vec::new();
-    for start in obstacles.members() {
-        if is_seen[start] {
-            continue;
+    let runs: Vec<Run> = obstacles.runs().map(|run| Run::new(run, obstacles)).collect();
+    let mut groups = Groups::new(&runs);
+    let mut below = 0;
+    for (here, run) in runs.iter().enumerate() {
+        // The runs of the row below that end before this one begins touch no later one either.
+        while runs[below].row + 1 < run.row || (runs[below].row < run.row && runs[below].end < run.start) {
+            below += 1;
         }
-        let mut group = vec![start];
-        is_seen[start] = true;
-        let (mut low, mut high) = (obstacles.cell(start), obstacles.cell(start));
-        let mut at = 0;
-        while at < group.len() {
-            for near in obstacles.neighbors(group[at]) {
-                if !is_seen[near] {
-                    is_seen[near] = true;
-                    let Cell { column, row } = obstacles.cell(near);
-                    low = Cell { column: low.column.min(column), row: low.row.min(row) };
-                    high = Cell { column: high.column.max(column), row: high.row.max(row) };
-                    group.push(near);
-                }
-            }
-            at += 1;
-        }
+        let touching =
+            (below..here).take_while(|&other| runs[other].row < run.row && runs[other].start <= run.end);
+        touching.for_each(|other| groups.join(other as u32, here as u32));
+    }
+    let [width, height] = obstacles.size();
+    let mut number_of: FxHashMap<u32, usize> = FxHashMap::default();
+    let mut small: Vec<Vec<usize>> = Vec::new();
+    for (here, run) in runs.iter().enumerate() {
+        let root = groups.root(here as u32);
+        let [low, high] = groups.bounds[root as usize];
         let is_small = high.column - low.column < longest && high.row - low.row < longest;
-        let [width, height] = obstacles.size();
         let is_inside = low.column > 0 && low.row > 0 && high.column + 1 < width && high.row + 1 < height;
         if is_small && is_inside {
-            small.push(group);
+            let number = *number_of.entry(root).or_insert(small.len());
+            if number == small.len() {
+                small.push(Vec::new());
+            }
+            let start = obstacles.position(Cell { column: run.start, row: run.row });
+            small[number].extend(start..start + (run.end - run.start) as usize);
         }
     }
     small
+}
+
+/// Obstacles side by side in a row, from a first column to behind the last.
+struct Run {
+    row: u32,
+    start: u32,
+    end: u32,
+}
+
+impl Run {
+    fn new(positions: Range<usize>, mask: &Mask) -> Self {
+        let Cell { column, row } = mask.cell(positions.start);
+        Run { row, start: column, end: column + positions.len() as u32 }
+    }
+}
+
+/// Which runs hang together.
+struct Groups {
+    parent: Vec<u32>,
+    /// The lowest and the highest column and row of the group that a run stands for.
+    bounds: Vec<[Cell; 2]>,
+}
+
+impl Groups {
+    fn new(runs: &[Run]) -> Self {
+        let cell = |column: u32, row: u32| Cell { column, row };
+        let bounds = runs.iter().map(|run| [cell(run.start, run.row), cell(run.end - 1, run.row)]);
+        Groups { parent: (0..runs.len() as u32).collect(), bounds: bounds.collect() }
+    }
+
+    fn root(&mut self, mut run: u32) -> u32 {
+        while self.parent[run as usize] != run {
+            let above = self.parent[self.parent[run as usize] as usize];
+            self.parent[run as usize] = above;
+            run = above;
+        }
+        run
+    }
+
+    fn join(&mut self, one: u32, other: u32) {
+        let [one, other] = [one, other].map(|run| self.root(run));
+        let (kept, gone) = (one.min(other), one.max(other));
+        self.parent[gone as usize] = kept;
+        let [gone_low, gone_high] = self.bounds[gone as usize];
+        let [low, high] = &mut self.bounds[kept as usize];
+        *low = Cell { column: low.column.min(gone_low.column), row: low.row.min(gone_low.row) };
+        *high = Cell { column: high.column.max(gone_high.column), row: high.row.max(gone_high.row) };
+    }
 }
 
 /// Groups that are no more than `apart` cells from one another along both axes, as one.

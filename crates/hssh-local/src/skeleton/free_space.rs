@@ -18,16 +18,7 @@ impl FreeSpace {
     #[must_use]
     pub fn new(grid: &OccupancyGrid, options: &SkeletonOptions) -> Self {
         let lattice = *grid.lattice();
-        let is_obstacle = |index: usize| match grid.cells()[index] {
-            Occupancy::Occupied => true,
-            Occupancy::Unknown => options.unknown != UnknownSpace::Free,
-            Occupancy::Free => false,
-        };
-        let mut obstacles = Mask::new(&lattice, is_obstacle);
-        let cells = |metres: f64| (metres / lattice.resolution()).round() as u32;
-        remove_clutter(&mut obstacles, cells(options.clutter), cells(options.apart));
-        let is_obstacle: Vec<bool> = obstacles.in_lattice().collect();
-        let field = DistanceField::new(lattice, |index| is_obstacle[index]);
+        let field = clear_field(grid, options);
         let narrowest = options.narrowest_passage / 2.0;
         let mask = Mask::new(&lattice, |index| {
             let clearance = field.clearance_at(index);
@@ -53,4 +44,18 @@ impl FreeSpace {
     pub fn is_empty(&self) -> bool {
         self.mask.members().next().is_none()
     }
+}
+
+/// How far each cell is from the obstacles of a grid without its clutter.
+pub(crate) fn clear_field(grid: &OccupancyGrid, options: &SkeletonOptions) -> DistanceField {
+    let lattice = *grid.lattice();
+    let is_obstacle = |index: usize| match grid.cells()[index] {
+        Occupancy::Occupied => true,
+        Occupancy::Unknown => options.unknown != UnknownSpace::Free,
+        Occupancy::Free => false,
+    };
+    let mut obstacles = Mask::new(&lattice, is_obstacle);
+    let cells = |metres: f64| (metres / lattice.resolution()).round() as u32;
+    remove_clutter(&mut obstacles, cells(options.clutter), cells(options.apart));
+    DistanceField::new(lattice, |index| obstacles.contains(obstacles.position_of(index)))
 }

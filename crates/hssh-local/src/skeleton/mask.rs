@@ -1,6 +1,8 @@
 //! Sets of cells with the eight neighbors of each, and which cells are simple: whether taking one out
 //! changes how the set and its complement are connected.
 
+use std::ops::Range;
+
 use crate::grid::{Cell, Lattice};
 
 /// A set of cells of a lattice, with an empty frame around it so that every cell has eight neighbors.
@@ -35,11 +37,25 @@ impl Mask {
         Cell { column: (position % self.stride) as u32 - 1, row: (position / self.stride) as u32 - 1 }
     }
 
-    /// For each cell of the lattice, in row-major order, whether it is a member.
-    pub(crate) fn in_lattice(&self) -> impl Iterator<Item = bool> + '_ {
-        let rows = self.is_member.chunks_exact(self.stride).skip(1);
-        let rows = rows.take(self.is_member.len() / self.stride - 2);
-        rows.flat_map(|row| row[1..row.len() - 1].iter().copied())
+    /// The position of the cell with an index in the lattice.
+    pub(crate) fn position_of(&self, index: usize) -> usize {
+        let width = self.stride - 2;
+        (index / width + 1) * self.stride + index % width + 1
+    }
+
+    /// The runs of members in each row of the lattice: the positions from the first to behind the last.
+    pub(crate) fn runs(&self) -> impl Iterator<Item = Range<usize>> + '_ {
+        let end_of = |start: usize, is_member: bool| {
+            let run = self.is_member[start..].iter().take_while(|&&member| member == is_member);
+            start + run.count()
+        };
+        // The frame ends the runs of a row.
+        let mut at = 0;
+        std::iter::from_fn(move || {
+            let start = end_of(at, false);
+            at = end_of(start, true);
+            (start < at).then_some(start..at)
+        })
     }
 
     /// A set of the same cells without any members.

@@ -17,6 +17,7 @@ mod tip;
 mod trace;
 
 pub use free_space::FreeSpace;
+pub(crate) use free_space::clear_field;
 pub use graph::{
     AxisPoint, EdgeEnd, Skeleton, SkeletonEdge, SkeletonEdgeId, SkeletonNode, SkeletonNodeId, Tip,
 };

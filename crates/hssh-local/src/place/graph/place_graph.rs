@@ -7,6 +7,7 @@ use super::candidate::Candidates;
 use super::connection::{OpenEnd, PlaceConnection, Resolved, connect};
 use super::parts::{Parts, PlaceNumber, PlacedSection};
 use super::section::{Section, Way, sections, ways};
+use crate::distance::DistanceField;
 use crate::grid::{Occupancy, OccupancyGrid};
 use crate::place::constriction::constrictions;
 use crate::place::gateway::gateway_on;
@@ -86,7 +87,7 @@ impl PlaceGraph {
     pub fn new(grid: &OccupancyGrid, options: &PlaceOptions) -> Result<Self, PlaceGraphError> {
         let free = FreeSpace::new(grid, &options.skeleton);
         if free.is_empty() {
-            return Err(PlaceGraphError::of(grid, &free, options.skeleton.narrowest_passage));
+            return Err(PlaceGraphError::of(grid, free.field(), options.skeleton.narrowest_passage));
         }
         let skeleton = Skeleton::new(grid, &free, &options.skeleton);
         let candidates = Candidates::new(&skeleton, options);
@@ -167,13 +168,13 @@ impl GridPlace {
 
 impl PlaceGraphError {
     /// Why free space is empty.
-    pub(crate) fn of(grid: &OccupancyGrid, free: &FreeSpace, narrowest: f64) -> Self {
+    pub(crate) fn of(grid: &OccupancyGrid, field: &DistanceField, narrowest: f64) -> Self {
         let cells = grid.cells().len();
         if grid.count(Occupancy::Unknown) == cells {
             PlaceGraphError::AllUnknown { cells }
         } else if grid.count(Occupancy::Free) == 0 {
             PlaceGraphError::NothingFree { cells }
-        } else if free.field().squared_cells(grid.lattice().cell(0)).is_none() {
+        } else if field.squared_cells(grid.lattice().cell(0)).is_none() {
             PlaceGraphError::NoObstacle
         } else {
             PlaceGraphError::TooNarrow { narrowest, resolution: grid.lattice().resolution() }
