@@ -44,7 +44,7 @@ pub use carmen::{
     GrowingLog, LaserKind, LaserLog, LaserMessage, LaserMount, LaserTurn, LaserView, LogError, LogPosition,
     LogReader, LogWarning, LoggedScan, Message, MessageProblem,
 };
-pub use closing::{ClosedTrack, ClosingError, ClosingOptions, Closure, close_loops};
+pub use closing::{Alike, ClosedTrack, ClosingError, ClosingOptions, Closure, close_loops};
 pub use distance::DistanceField;
 pub use global_map::{Stay, building_map, global_map, global_poses, mean_wall_distance, stays, visit_frames};
 pub use grid::{Cell, CellLine, GridError, Lattice, LatticeError, Occupancy, OccupancyGrid};

@@ -60,6 +60,15 @@ pub struct Closure {
     pub weight: f64,
 }
 
+/// Scans that look alike: an earlier and a later one each.
+#[derive(Clone, PartialEq, Eq, Debug, Default)]
+pub struct Alike {
+    /// Where they are believed to be.
+    pub expected: Vec<(usize, usize)>,
+    /// Elsewhere, but where they may be, as far as that is known: too few or too ambiguous for a return.
+    pub possible: Vec<(usize, usize)>,
+}
+
 /// A track with its loops closed.
 #[derive(Clone, PartialEq, Debug)]
 pub struct ClosedTrack {
@@ -68,11 +77,8 @@ pub struct ClosedTrack {
     pub graph: PoseGraph,
     /// The returns that were found.
     pub closures: Vec<Closure>,
-    /// Earlier and later scans that look alike where they are believed to be, whether that was enough for a closure or not.
-    pub expected: Vec<(usize, usize)>,
-    /// Earlier and later scans that look alike and may be of one place, as far as it is known where they are, but not as they are
-    /// believed to be: they are too few or too ambiguous for a return.
-    pub possible: Vec<(usize, usize)>,
+    /// What looks alike, whether that was enough for a return or not.
+    pub alike: Alike,
 }
 
 impl ClosedTrack {
@@ -373,28 +379,27 @@ impl<'a> Closing<'a> {
         let between = reweighted(&self.graph, &robust.poses, &robust.weights);
         let graph = all_scans(track, &self.keyframes, &between)?;
         self.graph.set_poses(robust.poses)?;
-        let (expected, possible) = self.alike();
-        Ok(ClosedTrack { graph, closures, expected, possible })
+        Ok(ClosedTrack { graph, closures, alike: self.looks_alike() })
     }
 
-    /// What looks alike: two scans each, those where it is believed to be, and those elsewhere where it may be as far as that is known.
-    fn alike(&self) -> (Vec<(usize, usize)>, Vec<(usize, usize)>) {
+    /// What looks alike, once it is known where all submaps are.
+    fn looks_alike(&self) -> Alike {
         let scan = |submap: usize| self.keyframes[self.submaps[submap].middle].scan;
         let pose = |submap: usize| self.pose(submap);
-        let (mut expected, mut possible) = (Vec::new(), Vec::new());
+        let mut pairs = Alike::default();
         for (query, alike) in self.alike.iter().enumerate().filter(|(_, alike)| !alike.is_empty()) {
             let known = self.ways.from(query, pose);
             for found in alike {
                 let off = (told(found, pose).translation() - pose(query).translation()).norm();
                 let scans = (scan(found.reference), scan(query));
                 if off <= THERE {
-                    expected.push(scans);
+                    pairs.expected.push(scans);
                 } else if off < POSSIBLE * known[found.reference].across {
-                    possible.push(scans);
+                    pairs.possible.push(scans);
                 }
             }
         }
-        (expected, possible)
+        pairs
     }
 
     /// The minimum in which closures that the rest contradicts count little.

@@ -13,6 +13,6 @@ mod search;
 mod submap;
 mod ways;
 
-pub use close::{ClosedTrack, ClosingError, Closure, close_loops};
+pub use close::{Alike, ClosedTrack, ClosingError, Closure, close_loops};
 pub use options::ClosingOptions;
 pub(crate) use ways::{Known, Ways};

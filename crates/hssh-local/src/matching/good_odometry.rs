@@ -76,7 +76,7 @@ mod tests {
 
     /// The scans show 40 steps of 2.1 m straight on; the wheels tell them with errors along the way and of the heading.
     fn found(along: f64, heading: f64) -> Option<MatchOptions> {
-        let wrong = |scan: u32| if scan % 2 == 0 { 1.0 } else { -1.0 };
+        let wrong = |scan: u32| if scan.is_multiple_of(2) { 1.0 } else { -1.0 };
         let line = |scan: u32| {
             let x = 2.1 * f64::from(scan) + 0.5 * along * wrong(scan);
             format!("FLASER 3 1 2 1 0 0 0 {x} 0 {} {scan} host {scan}\n", 0.5 * heading * wrong(scan))

@@ -104,12 +104,12 @@ pub(super) fn evidence(track: &Track, closed: &ClosedTrack) -> (Evidence, Vec<Su
         evidence.contradicted += 1;
         warnings.push(SurveyWarning::Contradicted { scan: closure.later + 1, earlier: closure.earlier + 1 });
     }
-    for (later, earlier, known) in unconfirmed(track, &believed, &closed.expected) {
+    for (later, earlier, known) in unconfirmed(track, &believed, &closed.alike.expected) {
         let is_known = known.across <= WELL_KNOWN;
         *if is_known { &mut evidence.unconfirmed } else { &mut evidence.adrift } += 1;
         warnings.push(SurveyWarning::Unconfirmed { scan: later + 1, earlier: earlier + 1 });
     }
-    for (earlier, later) in possible_stretches(track, &closed.possible) {
+    for (earlier, later) in possible_stretches(track, &closed.alike.possible) {
         evidence.adrift += 1;
         warnings.push(SurveyWarning::Possible { scan: later + 1, earlier: earlier + 1 });
     }
@@ -229,6 +229,7 @@ mod tests {
     use proptest::prelude::*;
 
     use super::*;
+    use crate::closing::Alike;
     use crate::matching::TrackedScan;
 
     /// Scans every half metre along a line through corners.
@@ -279,7 +280,7 @@ mod tests {
     }
 
     fn closed(closures: Vec<Closure>) -> ClosedTrack {
-        ClosedTrack { graph: PoseGraph::default(), closures, expected: Vec::new(), possible: Vec::new() }
+        ClosedTrack { graph: PoseGraph::default(), closures, alike: Alike::default() }
     }
 
     fn counts(evidence: Evidence) -> (usize, usize, usize) {
@@ -324,10 +325,18 @@ mod tests {
                 })
                 .collect()
         };
-        let (found, warnings) =
-            evidence(&around(), &ClosedTrack { expected: pairs(0.0, 60.0), ..closed(Vec::new()) });
+        let (found, warnings) = evidence(
+            &around(),
+            &ClosedTrack {
+                alike: Alike { expected: pairs(0.0, 60.0), ..Alike::default() },
+                ..closed(Vec::new())
+            },
+        );
         assert_eq!((counts(found), found.adrift, warnings), ((0, 0, 0), 0, vec![]));
-        let alike = |from: f64, to: f64| ClosedTrack { possible: pairs(from, to), ..closed(again(2, 60)) };
+        let alike = |from: f64, to: f64| ClosedTrack {
+            alike: Alike { possible: pairs(from, to), ..Alike::default() },
+            ..closed(again(2, 60))
+        };
         let doubts = |from: f64, to: f64| evidence(&around(), &alike(from, to)).0.adrift;
         assert_eq!((doubts(0.0, 60.0), doubts(10.0, 18.0), doubts(10.0, 14.0)), (4, 1, 0));
     }

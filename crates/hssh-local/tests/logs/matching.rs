@@ -80,7 +80,7 @@ fn a_turned_laser_is_reckoned_with() {
 fn a_robot_that_sees_nothing_goes_by_odometry() {
     let poses = drive(&[[0.0, 0.0], [3.0, 0.0]], 0.5);
     // One wall, farther away than what is matched.
-    let far: Walls = vec![[[25.0, -3.0], [25.0, 3.0]]];
+    let far: Walls = vec![[[36.0, -3.0], [36.0, 3.0]]];
     let track = tracked(&far, &poses);
     let last = track.scans[track.scans.len() - 1];
     assert!((last.travelled - 3.15).abs() < 1e-6, "{last:?}");
