@@ -31,7 +31,7 @@ pub(super) struct Submap {
     pub(super) field: Field,
 }
 
-/// Which keyframes are the middles of submaps.
+/// Which keyframes are the middles of submaps: the last one always, for logs end where the robot comes back to.
 pub(super) fn middles(keyframes: &[Keyframe], options: &ClosingOptions) -> Vec<usize> {
     let mut middles: Vec<usize> = Vec::new();
     for (index, keyframe) in keyframes.iter().enumerate() {
@@ -39,6 +39,10 @@ pub(super) fn middles(keyframes: &[Keyframe], options: &ClosingOptions) -> Vec<u
         if since.is_none_or(|since| since >= options.submap_distance) {
             middles.push(index);
         }
+    }
+    let last = keyframes.len().saturating_sub(1);
+    if middles.last().is_some_and(|&middle| middle < last) {
+        middles.push(last);
     }
     middles
 }
