@@ -31,7 +31,8 @@ pub(super) struct Submap {
     pub(super) field: Field,
 }
 
-/// Which keyframes are the middles of submaps: the last one always, for logs end where the robot comes back to.
+/// Which keyframes are the middles of submaps: the last one, too, if it is half as far from the one before, for logs end where the robot
+/// comes back to.
 pub(super) fn middles(keyframes: &[Keyframe], options: &ClosingOptions) -> Vec<usize> {
     let mut middles: Vec<usize> = Vec::new();
     for (index, keyframe) in keyframes.iter().enumerate() {
@@ -40,9 +41,10 @@ pub(super) fn middles(keyframes: &[Keyframe], options: &ClosingOptions) -> Vec<u
             middles.push(index);
         }
     }
-    let last = keyframes.len().saturating_sub(1);
-    if middles.last().is_some_and(|&middle| middle < last) {
-        middles.push(last);
+    if let (Some(&middle), Some(last)) = (middles.last(), keyframes.last())
+        && last.travelled - keyframes[middle].travelled >= options.submap_distance / 2.0
+    {
+        middles.push(keyframes.len() - 1);
     }
     middles
 }
