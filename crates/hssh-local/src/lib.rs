@@ -23,6 +23,7 @@
 
 mod carmen;
 mod closing;
+mod disjoint_sets;
 mod distance;
 mod geodesic;
 mod global_map;

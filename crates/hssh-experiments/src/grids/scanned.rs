@@ -10,6 +10,7 @@ use hssh_local::{
 };
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
+use rand_distr::{Distribution, StandardNormal};
 
 use super::plans::{RESOLUTION, names, truth};
 use super::segmentation::{Agreement, Rooms};
@@ -229,13 +230,17 @@ fn scanned(plan: &OccupancyGrid, turn: f64, cell: f64, seed: u64) -> Result<Occu
     let side = (2.0 * half / cell).ceil() as u32 + 2;
     let lattice = Lattice::new(side, side, cell, [-f64::from(side) * cell / 2.0; 2])?;
     let mut beams = vec![[0_u32; 2]; lattice.len()];
-    for [x, y] in spots(plan, &mut random) {
-        let [dx, dy] = [normal(&mut random) * POSITION_NOISE, normal(&mut random) * POSITION_NOISE];
-        let heading = normal(&mut random) * HEADING_NOISE;
+    let spots = spots(plan, &mut random);
+    let mut noise = |deviation: f64| {
+        let normal: f64 = StandardNormal.sample(&mut random);
+        deviation * normal
+    };
+    for [x, y] in spots {
+        let [dx, dy, heading] = [POSITION_NOISE, POSITION_NOISE, HEADING_NOISE].map(&mut noise);
         for beam in 0..BEAMS {
             let bearing = f64::from(beam) / f64::from(BEAMS) * std::f64::consts::TAU;
             let (range, is_hit) = range(plan, [x, y], bearing);
-            let range = (range + normal(&mut random) * RANGE_NOISE).max(0.0);
+            let range = (range + noise(RANGE_NOISE)).max(0.0);
             let (sin, cos) = (bearing + heading).sin_cos();
             let from = turned.there([x + dx, y + dy]);
             let to = turned.there([x + dx + range * cos, y + dy + range * sin]);
@@ -283,11 +288,6 @@ fn range(plan: &OccupancyGrid, [x, y]: [f64; 2], bearing: f64) -> (f64, bool) {
     let end = (1..steps)
         .find(|number| plan.at([x + along(number) * cos, y + along(number) * sin]) != Occupancy::Free);
     end.map_or((REACH, false), |number| (along(&number), true))
-}
-
-/// A number from the normal distribution, about.
-fn normal(random: &mut ChaCha8Rng) -> f64 {
-    (0..12).map(|_| random.random::<f64>()).sum::<f64>() - 6.0
 }
 
 /// Where true rooms are no farther apart than a line is thick, and nothing but free space is between them.

@@ -36,6 +36,6 @@ pub(super) fn calibrated(
     let good = good_odometry(log, track, options);
     (turn.is_some() || good.is_some()).then(|| {
         let log = log.clone();
-        (turn.map_or_else(|| log.clone(), |turn| log.clone().turned(turn)), good.unwrap_or(*options))
+        (if let Some(turn) = turn { log.turned(turn) } else { log }, good.unwrap_or(*options))
     })
 }

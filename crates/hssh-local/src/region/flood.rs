@@ -4,6 +4,7 @@
 //! narrowest point between their widest ones. If it is about as wide as the smaller of the two, there is no
 //! constriction, and they become one; else they stay apart, and their border runs through the narrow point.
 
+use crate::disjoint_sets::DisjointSets;
 use crate::distance::DistanceField;
 use crate::grid::Lattice;
 
@@ -32,7 +33,7 @@ pub(super) struct Joining {
 
 /// The basins as they grow.
 struct Basins {
-    parent: Vec<u32>,
+    sets: DisjointSets,
     widest: Vec<u32>,
     /// The clearance at the widest cell, in cells.
     peak: Vec<f32>,
@@ -40,20 +41,9 @@ struct Basins {
 
 impl Basins {
     fn add(&mut self, cell: u32, peak: f32) -> u32 {
-        let label = self.parent.len() as u32;
-        self.parent.push(label);
         self.widest.push(cell);
         self.peak.push(peak);
-        label
-    }
-
-    fn root(&mut self, mut label: u32) -> u32 {
-        while self.parent[label as usize] != label {
-            let above = self.parent[self.parent[label as usize] as usize];
-            self.parent[label as usize] = above;
-            label = above;
-        }
-        label
+        self.sets.add()
     }
 
     /// Joins the basins that meet at a cell with this clearance, where they are one; the joined basin, if there is one,
@@ -72,7 +62,7 @@ impl Basins {
                 || peak < joining.least;
             if is_one {
                 // The narrowest of the wider ones: what is most alike.
-                self.parent[met[lower] as usize] = met[lower - 1];
+                self.sets.join(met[lower], met[lower - 1]);
                 joined = Some(met[lower - 1]);
             }
         }
@@ -84,7 +74,7 @@ impl Basins {
 pub(super) fn flood(field: &DistanceField, joining: Joining) -> Pieces {
     let lattice = field.lattice();
     let mut labels = vec![NO_PIECE; lattice.len()];
-    let mut basins = Basins { parent: Vec::new(), widest: Vec::new(), peak: Vec::new() };
+    let mut basins = Basins { sets: DisjointSets::default(), widest: Vec::new(), peak: Vec::new() };
     for index in widest_first(field) {
         let index = index as usize;
         let distance = f64::from(field.squared_at(index)).sqrt() as f32 - 0.5;
@@ -96,7 +86,7 @@ pub(super) fn flood(field: &DistanceField, joining: Joining) -> Pieces {
             if label == NO_PIECE {
                 continue;
             }
-            let root = basins.root(label);
+            let root = basins.sets.representative(label);
             if !met[..count].contains(&root) {
                 met[count] = root;
                 count += 1;
@@ -114,17 +104,19 @@ pub(super) fn flood(field: &DistanceField, joining: Joining) -> Pieces {
 
 /// Gives the basins that are left numbers without gaps, in the order of their widest cells.
 fn numbered(mut labels: Vec<u32>, mut basins: Basins, joining: Joining) -> Pieces {
-    let mut numbers = vec![NO_PIECE; basins.parent.len()];
+    let mut numbers = vec![NO_PIECE; basins.sets.len()];
     let mut widest = Vec::new();
     for (label, number) in numbers.iter_mut().enumerate() {
-        if basins.parent[label] == label as u32 && f64::from(basins.peak[label]) >= joining.least {
+        if basins.sets.representative(label as u32) == label as u32
+            && f64::from(basins.peak[label]) >= joining.least
+        {
             *number = widest.len() as u32;
             widest.push(basins.widest[label]);
         }
     }
     for label in &mut labels {
         if *label != NO_PIECE {
-            *label = numbers[basins.root(*label) as usize];
+            *label = numbers[basins.sets.representative(*label) as usize];
         }
     }
     Pieces { labels, widest }

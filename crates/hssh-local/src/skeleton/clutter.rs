@@ -5,6 +5,7 @@ use std::ops::Range;
 use rustc_hash::FxHashMap;
 
 use super::mask::Mask;
+use crate::disjoint_sets::DisjointSets;
 use crate::grid::Cell;
 
 /// What is at least this many times as long as it is wide is a piece of a wall.
@@ -42,7 +43,7 @@ fn small_groups(obstacles: &Mask, longest: u32) -> Vec<Vec<usize>> {
     let mut number_of: FxHashMap<u32, usize> = FxHashMap::default();
     let mut small: Vec<Vec<usize>> = Vec::new();
     for (here, run) in runs.iter().enumerate() {
-        let root = groups.root(here as u32);
+        let root = groups.sets.representative(here as u32);
         let [low, high] = groups.bounds[root as usize];
         let is_small = high.column - low.column < longest && high.row - low.row < longest;
         let is_inside = low.column > 0 && low.row > 0 && high.column + 1 < width && high.row + 1 < height;
@@ -74,7 +75,7 @@ impl Run {
 
 /// Which runs hang together.
 struct Groups {
-    parent: Vec<u32>,
+    sets: DisjointSets,
     /// The lowest and the highest column and row of the group that a run stands for.
     bounds: Vec<[Cell; 2]>,
 }
@@ -83,22 +84,13 @@ impl Groups {
     fn new(runs: &[Run]) -> Self {
         let cell = |column: u32, row: u32| Cell { column, row };
         let bounds = runs.iter().map(|run| [cell(run.start, run.row), cell(run.end - 1, run.row)]);
-        Groups { parent: (0..runs.len() as u32).collect(), bounds: bounds.collect() }
-    }
-
-    fn root(&mut self, mut run: u32) -> u32 {
-        while self.parent[run as usize] != run {
-            let above = self.parent[self.parent[run as usize] as usize];
-            self.parent[run as usize] = above;
-            run = above;
-        }
-        run
+        Groups { sets: DisjointSets::singletons(runs.len()), bounds: bounds.collect() }
     }
 
     fn join(&mut self, one: u32, other: u32) {
-        let [one, other] = [one, other].map(|run| self.root(run));
+        let [one, other] = [one, other].map(|run| self.sets.representative(run));
         let (kept, gone) = (one.min(other), one.max(other));
-        self.parent[gone as usize] = kept;
+        self.sets.join(gone, kept);
         let [gone_low, gone_high] = self.bounds[gone as usize];
         let [low, high] = &mut self.bounds[kept as usize];
         *low = Cell { column: low.column.min(gone_low.column), row: low.row.min(gone_low.row) };

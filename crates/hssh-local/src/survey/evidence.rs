@@ -162,8 +162,8 @@ pub(super) fn stretches<'a>(
     stretches
 }
 
-/// Where the robot seems to be back, and neither a closure says so nor does it look alike as expected: one pair of scans for each stretch, the later one first, and how
-/// well they are known to one another.
+/// Where the robot seems to be back, and neither a closure says so nor does it look alike as expected: one pair of scans for each
+/// stretch, the later one first, and how well they are known to one another.
 fn unconfirmed(
     track: &Track,
     believed: &[Closure],
