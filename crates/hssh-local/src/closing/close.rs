@@ -24,6 +24,8 @@ use crate::progress::Reply;
 const SWEEPS: usize = 2;
 /// Of one submap at most so many others are looked into.
 const MOST_CANDIDATES: usize = 8;
+/// Beyond so many doublings of what is well known nothing is known.
+const MOST_DOUBLINGS: f64 = 8.0;
 /// A closure costs a way so long when it is asked how well two poses are known to one another: metres.
 const CLOSURE_LENGTH: f64 = 1.0;
 /// Moved farther than this, in metres, the graph is solved anew.
@@ -302,7 +304,8 @@ impl<'a> Closing<'a> {
     }
 
     /// Whether matches that tell the same, the last one first, are no chance: many, or strong, or where they were expected. The
-    /// less is known of where the robot is, the more that looks alike may be there, and the longer it has to look alike.
+    /// less is known of where the robot is, the more that looks alike may be there, and the longer it has to look alike: each match
+    /// more rules out about as much as a doubling of the standard deviation adds.
     fn is_convincing(&self, chain: &[Match]) -> bool {
         let options = self.options;
         let score = chain.iter().map(|found| found.score).sum::<f64>() / chain.len() as f64;
@@ -311,8 +314,8 @@ impl<'a> Closing<'a> {
         if spread <= options.well_known {
             return chain.len() + usize::from(is_strong) >= options.least_chain;
         }
-        let more = (options.chain_per_metre * (spread - options.well_known)).ceil() as usize;
-        chain.len() >= (options.least_chain + more).min(options.longest_chain)
+        let doublings = (spread / options.well_known).log2().ceil().min(MOST_DOUBLINGS);
+        chain.len() >= options.least_chain + doublings as usize
     }
 
     /// Adds a match to the graph, if it is not there yet, and tells how far off it is: metres, and 10 for a radian.

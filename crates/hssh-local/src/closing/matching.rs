@@ -73,7 +73,7 @@ pub(super) fn find(
     };
     let matching = MatchOptions { floor: (0.0, 0.0), hits_per_observation: 20.0, ..MatchOptions::default() };
     let (cloud, surfaces) = (one.cloud(keyframes), other.surfaces(keyframes));
-    let fine = align(&cloud, &surfaces, best.pose, &prior, &matching);
+    let fine = align(&cloud, &surfaces, best.pose, &prior, 1.0, &matching);
     if (fine.mean.translation() - best.pose.translation()).norm() > 0.4 {
         return None;
     }
@@ -108,7 +108,7 @@ pub(super) fn refined(
     let covariance = Covariance::from_standard_deviations(ALIGNED.0, ALIGNED.0, ALIGNED.1).expect("positive");
     let prior = UncertainPose { mean: start, covariance };
     let matching = MatchOptions { floor: (0.0, 0.0), hits_per_observation: 10.0, ..MatchOptions::default() };
-    let fine = align(cloud, surfaces, start, &prior, &matching);
+    let fine = align(cloud, surfaces, start, &prior, 1.0, &matching);
     let slide = slide(cloud, surfaces, fine.mean, options.least_crossing);
     let rotation = fine.mean.rotation();
     let lies = |surface: &&SurfacePoint| {

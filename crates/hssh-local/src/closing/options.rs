@@ -40,12 +40,8 @@ pub struct ClosingOptions {
     /// See `least_chain`.
     pub strong_score: f64,
     /// Where the robot is known up to this standard deviation, in metres, there is no room for another corridor that looks
-    /// alike…
+    /// alike; with each doubling of it one more match has to tell the same.
     pub well_known: f64,
-    /// …and for each metre more, so many more matches have to tell the same…
-    pub chain_per_metre: f64,
-    /// …up to so many.
-    pub longest_chain: usize,
     /// However good a match is, a closure is not known better than this: metres and radians, standard deviations.
     pub floor: (f64, f64),
     /// The same of a match of one keyframe.
@@ -75,8 +71,6 @@ impl Default for ClosingOptions {
             least_chain: 3,
             strong_score: 0.6,
             well_known: 2.5,
-            chain_per_metre: 4.0,
-            longest_chain: 16,
             floor: (0.04, 0.006),
             fine_floor: (0.02, 0.004),
             refinements: 2,

@@ -33,7 +33,8 @@ impl Known {
     /// Nothing.
     const NOT: Known = Known { length: f64::INFINITY, across: f64::INFINITY };
 
-    fn of(length: f64, covariance: &Covariance) -> Self {
+    /// What a way of some length with a covariance leaves to know.
+    pub(crate) fn of(length: f64, covariance: &Covariance) -> Self {
         let worst = covariance.matrix().fixed_view::<2, 2>(0, 0).symmetric_eigenvalues().max();
         Known { length, across: worst.max(0.0).sqrt() }
     }

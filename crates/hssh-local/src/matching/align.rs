@@ -16,12 +16,14 @@ const DONE: (f64, f64) = (1e-4, 1e-5);
 const FACING: f64 = 0.75;
 
 /// The pose that fits both the surfaces and the odometry best, with its covariance: of (x, y, θ) in the
-/// frame of the cloud. `start` is where to begin, `predicted` what odometry believes.
+/// frame of the cloud. `start` is where to begin, `predicted` what odometry believes. Hits that were matched with the same surfaces before
+/// tell but a part that is `new`, at most 1: their errors repeat themselves, and do not add up.
 pub(crate) fn align(
     cloud: &Cloud,
     surfaces: &[SurfacePoint],
     start: Pose,
     predicted: &UncertainPose,
+    new: f64,
     options: &MatchOptions,
 ) -> UncertainPose {
     let prior = *predicted.covariance.information().matrix();
@@ -36,8 +38,8 @@ pub(crate) fn align(
             wrap_angle(pose.theta - predicted.mean.theta),
         );
         let (hessian, gradient) = normal_equations(cloud, surfaces, pose, reach, options);
-        information = prior + hessian;
-        let Some(cholesky) = information.cholesky() else { break };
+        information = prior + hessian / new;
+        let Some(cholesky) = (prior + hessian).cholesky() else { break };
         let step = cholesky.solve(&-(prior * off + gradient));
         pose = Pose::new(pose.x + step.x, pose.y + step.y, pose.theta + step.z);
         let is_small = step.xy().norm() < DONE.0 && step.z.abs() < DONE.1;
@@ -45,7 +47,7 @@ pub(crate) fn align(
             break;
         }
     }
-    UncertainPose { mean: pose, covariance: with_floor(&information, predicted, options) }
+    UncertainPose { mean: pose, covariance: with_floor(&information, predicted, new, options) }
 }
 
 /// The Hessian and gradient of half the weighted squared distances from hits to lines.
@@ -89,12 +91,53 @@ fn facing(
 }
 
 /// The covariance of an information matrix, widened by the floor.
-fn with_floor(information: &Matrix3<f64>, predicted: &UncertainPose, options: &MatchOptions) -> Covariance {
-    let floor = Vector3::new(options.floor.0, options.floor.0, options.floor.1).map(|sigma| sigma * sigma);
+fn with_floor(
+    information: &Matrix3<f64>,
+    predicted: &UncertainPose,
+    new: f64,
+    options: &MatchOptions,
+) -> Covariance {
+    let floor =
+        Vector3::new(options.floor.0, options.floor.0, options.floor.1).map(|sigma| new * sigma * sigma);
     let inverse = information.cholesky().map(|cholesky| cholesky.inverse());
     let widened = inverse.map(|inverse| {
         let covariance = inverse + Matrix3::from_diagonal(&floor);
         0.5 * (covariance + covariance.transpose())
     });
     widened.and_then(|matrix| Covariance::new(matrix).ok()).unwrap_or(predicted.covariance)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// In a room all is shown; what of it was shown before does not add to the uncertainty. Along a single wall nothing is, and odometry's
+    /// stays.
+    #[test]
+    fn who_sees_the_same_again_errs_as_before() {
+        let point = |x: f64, y: f64, normal: [f64; 2]| SurfacePoint {
+            position: Vector2::new(x, y),
+            normal: Some(normal.into()),
+        };
+        let wall: Vec<SurfacePoint> =
+            (-30..=30).map(|k| point(0.1 * f64::from(k), 2.0, [0.0, 1.0])).collect();
+        let other = (-30..=30).map(|k| point(2.0, 0.1 * f64::from(k), [1.0, 0.0]));
+        let room: Vec<SurfacePoint> = wall.iter().copied().chain(other).collect();
+        let odometry = UncertainPose {
+            mean: Pose::IDENTITY,
+            covariance: Covariance::from_standard_deviations(1.0, 1.0, 1.0).unwrap(),
+        };
+        let options = MatchOptions { floor: (0.0, 0.0), ..MatchOptions::default() };
+        let variances = |surfaces: &[SurfacePoint], new: f64| {
+            let mut cloud = Cloud::default();
+            cloud.insert(Pose::IDENTITY, surfaces, 0.04);
+            let found = align(&cloud, surfaces, Pose::IDENTITY, &odometry, new, &options);
+            found.covariance.matrix().diagonal()
+        };
+        let (whole, part) = (variances(&room, 1.0), variances(&room, 0.1));
+        assert!((part.component_div(&whole).add_scalar(-0.1)).amax() < 0.01, "{whole} {part}");
+        let (whole, part) = (variances(&wall, 1.0), variances(&wall, 0.1));
+        assert!((whole.x - 1.0).abs() < 1e-6 && (part.x - 1.0).abs() < 1e-6, "{whole} {part}");
+        assert!((part.y / whole.y - 0.1).abs() < 0.01, "{whole} {part}");
+    }
 }

@@ -11,6 +11,8 @@ pub struct MatchOptions {
     pub worst_odometry: Option<MotionNoise>,
     /// Metres: only what a beam hits nearer than this is matched. Far walls hold the heading.
     pub reach: f64,
+    /// Metres: the same for a scan that shows little up to there, as on a lawn.
+    pub farthest_reach: f64,
     /// Metres: beams are thinned until what they hit is about this far apart.
     pub spacing: f64,
     /// Metres between a hit and the surface that it belongs to, standard deviation of one hit.
@@ -37,6 +39,7 @@ impl Default for MatchOptions {
             odometry: MotionNoise::default(),
             worst_odometry: None,
             reach: 30.0,
+            farthest_reach: 60.0,
             spacing: 0.08,
             hit_noise: 0.04,
             hits_per_observation: 2.0,

@@ -102,7 +102,10 @@ struct Seen {
 
 impl Seen {
     fn new(scan: &Scan, options: &MatchOptions) -> Self {
-        let all = surfaces(scan, options.reach, options.spacing);
+        let mut all = surfaces(scan, options.reach, options.spacing);
+        if all.len() < MUCH {
+            all = surfaces(scan, options.farthest_reach, options.spacing);
+        }
         let near = all.iter().filter(|surface| surface.position.norm() < COARSE_REACH).copied().collect();
         Seen { all, near }
     }
@@ -240,8 +243,18 @@ fn fitted(
     let step = if spread > WIDE { 3 } else { 1 };
     let few: Vec<SurfacePoint> = seen.near.iter().step_by(step).copied().collect();
     let start = search(&reference.field, &few, &predicted, options.search_sigmas, weight * step as f64);
-    let fine = align(&reference.cloud, &seen.all, start, &predicted, options);
+    let new = new_part(&odometry.mean, options);
+    let fine = align(&reference.cloud, &seen.all, start, &predicted, new, options);
     UncertainPose { mean: from.between(fine.mean), covariance: fine.covariance.rotated(-from.theta) }
+}
+
+/// Which part of the way to the next keyframe a step is: a robot that has hardly moved sees again what it saw, and errs as it did.
+fn new_part(step: &Pose, options: &MatchOptions) -> f64 {
+    /// Even who stands still sees something new.
+    const LEAST: f64 = 0.01;
+    let part =
+        step.translation().norm() / options.keyframe_distance + step.theta.abs() / options.keyframe_turn;
+    part.clamp(LEAST, 1.0)
 }
 
 fn is_new_view(last: &Keyframe, tracked: &TrackedScan, options: &MatchOptions) -> bool {

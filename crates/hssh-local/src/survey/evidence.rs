@@ -96,7 +96,7 @@ pub(super) fn evidence(track: &Track, closed: &ClosedTrack) -> (Evidence, Vec<Su
     let is_far = |closure: &Closure| closure.spread > WELL_KNOWN;
     let far_returns = returns.iter().filter(|stretch| stretch.iter().any(is_far)).count();
     let mut evidence = Evidence { returns: returns.len(), far_returns, ..Evidence::default() };
-    for closure in surprising(&returns) {
+    for closure in doubtful(&returns) {
         evidence.adrift += 1;
         warnings.push(SurveyWarning::Possible { scan: closure.later + 1, earlier: closure.earlier + 1 });
     }
@@ -116,16 +116,17 @@ pub(super) fn evidence(track: &Track, closed: &ClosedTrack) -> (Evidence, Vec<Su
     (evidence, warnings)
 }
 
-/// The returns to where the robot was hardly expected, which may as well be to a corridor beside it that looks the same; unless there are
-/// more returns, of which some would not fit to a wrong one.
-fn surprising(returns: &[Vec<Closure>]) -> Vec<Closure> {
-    let is_surprising = |closure: &&Closure| closure.off > closure.spread.max(NEAR);
-    let mut surprising: Vec<Closure> =
-        returns.iter().filter_map(|stretch| stretch.iter().find(is_surprising)).copied().collect();
-    if surprising.len() * CONFIRMED <= returns.len() {
-        surprising.clear();
+/// The returns to where the robot was hardly expected, or after so long a way that it might have been elsewhere: they may as well be to
+/// a corridor that looks the same; unless there are more returns, of which some would not fit to a wrong one.
+fn doubtful(returns: &[Vec<Closure>]) -> Vec<Closure> {
+    let is_doubtful =
+        |closure: &&Closure| closure.off > closure.spread.max(NEAR) || closure.spread > WELL_KNOWN;
+    let mut doubtful: Vec<Closure> =
+        returns.iter().filter_map(|stretch| stretch.iter().find(is_doubtful)).copied().collect();
+    if doubtful.len() * CONFIRMED <= returns.len() {
+        doubtful.clear();
     }
-    surprising
+    doubtful
 }
 
 /// One pair of scans for each later stretch of the way that looks like an earlier one where it may be. One pair alone is chance.
@@ -218,6 +219,10 @@ fn ways(track: &Track, asked: &[usize], believed: &[Closure]) -> Ways {
     let nearest = |scan: usize| asked.partition_point(|&other| other <= scan).saturating_sub(1);
     for closure in believed {
         let link = UncertainPose { mean: closure.relative, covariance: closure.covariance };
+        // What can be slid along a corridor is no short cut.
+        if Known::of(STEP, &link.covariance).across > WELL_KNOWN {
+            continue;
+        }
         ways.add([nearest(closure.earlier), nearest(closure.later)], STEP, link).ok();
     }
     ways
@@ -354,6 +359,28 @@ mod tests {
         };
         // Where the robot seems to be back later on and no closure says so is told as unconfirmed, not here.
         assert_eq!([doubts(1), doubts(3)], [(2, 1), (4, 0)]);
+    }
+
+    /// So is a return after so long a way that the robot might have been elsewhere, however near it is to where it was expected.
+    #[test]
+    fn a_return_after_a_long_way_is_doubtful_until_more_returns_confirm_it() {
+        let far = |at: f64| Closure { spread: 9.0, ..closure((at, at + 120.0), 1.0) };
+        let near = |k: u32| closure((10.0 + 16.0 * f64::from(k), 130.0 + 16.0 * f64::from(k)), 1.0);
+        let found = |returns: Vec<Closure>| {
+            let (found, _) = evidence(&around(), &closed(returns));
+            (found.far_returns, found.adrift)
+        };
+        assert_eq!(found(vec![far(5.0)]), (1, 1));
+        assert_eq!(found(vec![far(5.0), near(1), near(2), near(3)]), (1, 0));
+    }
+
+    /// A closure that can be slid along its corridor says that the robot is back, but not how well it is known where: the track does.
+    #[test]
+    fn what_can_be_slid_makes_nothing_uncertain() {
+        let covariance = Covariance::from_standard_deviations(5.0, 0.1, 0.01).unwrap();
+        let sliding = Closure { covariance, ..closure((5.0, 125.0), 1.0) };
+        let (found, _) = evidence(&around(), &closed(vec![sliding]));
+        assert!(found.unconfirmed >= 1 && found.adrift == 0, "{found:?}");
     }
 
     #[test]

@@ -85,7 +85,11 @@ fn a_robot_that_sees_nothing_goes_by_odometry() {
     let poses = drive(&[[0.0, 0.0], [3.0, 0.0]], 0.5);
     // One wall, farther away than what is matched.
     let far: Walls = vec![[[25.0, -3.0], [25.0, 3.0]]];
-    let track = tracked_by(&far, &poses, &MatchOptions { reach: 20.0, ..MatchOptions::default() });
+    let track = tracked_by(
+        &far,
+        &poses,
+        &MatchOptions { reach: 20.0, farthest_reach: 20.0, ..MatchOptions::default() },
+    );
     let last = track.scans[track.scans.len() - 1];
     assert!((last.travelled - 3.15).abs() < 1e-6, "{last:?}");
 }
