@@ -15,11 +15,15 @@
 mod error;
 mod facing;
 mod growing;
+mod handed;
 mod jump;
 mod limit;
 mod log;
 mod message;
 mod mount;
+mod noise;
+mod order;
+mod pace;
 mod position;
 mod raw;
 mod reader;

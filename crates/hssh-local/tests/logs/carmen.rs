@@ -564,3 +564,56 @@ fn a_rear_laser_looks_back() {
     let middle = log.scans[0].scan.direction(1);
     assert!((middle.x + 1.0).abs() < 1e-9, "{middle}");
 }
+
+/// Around a square of 8 m with rounded corners, always ahead.
+fn around(change: impl Fn([f64; 3]) -> [f64; 3]) -> Vec<LogWarning> {
+    let mut log = String::from("PARAM robot_front_laser_max 30 h 0\n");
+    let (mut x, mut y, mut heading) = (0.0_f64, 0.0_f64, 0.0_f64);
+    for step in 0..80_u32 {
+        heading += if step % 20 > 14 { FRAC_PI_2 / 5.0 } else { 0.0 };
+        (x, y) = (x + 0.4 * heading.cos(), y + 0.4 * heading.sin());
+        let [x, y, theta] = change([x, y, heading]);
+        log += &format!("FLASER 3 1 2 {} 0 0 0 {x:.3} {y:.3} {theta:.4} {step} h {step}\n", 1 + step % 2);
+    }
+    read(&log).unwrap().warnings
+}
+
+#[test]
+fn odometry_that_is_mirrored_is_doubted() {
+    let is_doubted = |change: fn([f64; 3]) -> [f64; 3]| around(change).contains(&LogWarning::OtherHanded);
+    assert!(!is_doubted(|pose| pose));
+    assert!(!is_doubted(|[x, y, theta]| [x, y, theta + 1.0]), "headings from elsewhere");
+    assert!(!is_doubted(|[x, y, theta]| [-x, -y, theta]), "it drives backward");
+    assert!(is_doubted(|[x, y, theta]| [x, -y, theta]));
+    assert!(is_doubted(|[x, y, theta]| [y, x, theta]));
+    assert!(is_doubted(|[x, y, theta]| [x, y, FRAC_PI_2 - theta]), "of a compass");
+}
+
+#[test]
+fn scans_in_no_order_are_refused() {
+    let lines: Vec<String> = driving(0.0, false).lines().map(str::to_owned).collect();
+    let in_order = |order: fn(usize) -> usize| {
+        let scans: Vec<String> = (0..40).map(|scan| lines[1 + order(scan)].clone()).collect();
+        read(&format!("{}\n{}\n", lines[0], scans.join("\n")))
+    };
+    assert!(in_order(|scan| scan).is_ok() && in_order(|scan| 39 - scan).is_ok());
+    let refusal = in_order(|scan| scan * 17 % 40).unwrap_err().to_string();
+    assert!(refusal.contains("sort the log by time"), "{refusal}");
+}
+
+/// Ranges as good as chance: sines of growing steps.
+#[test]
+fn ranges_that_scatter_are_doubted() {
+    let is_doubted = |sigma: f64| {
+        let scattered = reworded(&driving(0.0, false), |scan, words| {
+            for (beam, word) in words[2..183].iter_mut().enumerate() {
+                let number = (181 * scan + beam) as f64;
+                let chance: f64 =
+                    [1.0_f64, 2.3, 3.7, 5.1].iter().map(|step| (step * step * number * number).sin()).sum();
+                *word = format!("{:.3}", word.parse::<f64>().unwrap() + sigma * chance / 2.0_f64.sqrt());
+            }
+        });
+        read(&scattered).unwrap().warnings.iter().any(|warning| matches!(warning, LogWarning::Noisy { .. }))
+    };
+    assert_eq!([0.0, 0.05, 0.3].map(is_doubted), [false, false, true]);
+}

@@ -148,7 +148,8 @@ fn what_is_seen_at_a_glance_is_what_a_closer_look_sees() {
     for _ in 0..20_000 {
         let axes = Matrix3::from_fn(|_, _| normal()).qr().q();
         let scale = 10_f64.powf(60.0 * normal());
-        let eigenvalues = Vector3::from_fn(|_, _| scale * 10_f64.powf(4.0 * normal()) * (normal() + 1.5).signum());
+        let eigenvalues =
+            Vector3::from_fn(|_, _| scale * 10_f64.powf(4.0 * normal()) * (normal() + 1.5).signum());
         let turned = axes * Matrix3::from_diagonal(&eigenvalues) * axes.transpose();
         let matrix = 0.5 * (turned + turned.transpose());
         let mut rounded = matrix;
