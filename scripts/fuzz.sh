@@ -25,7 +25,7 @@ for target; do
     told=$(mktemp)
     # A finding ends the run of its target, and is told in the last column.
     cargo +nightly fuzz run -s none "$target" "$corpus" $seeds -- \
-        -rss_limit_mb=2048 -timeout=25 -max_total_time="$seconds" -print_final_stats=1 >"$told" 2>&1 || true
+        -rss_limit_mb=2048 -timeout=120 -max_total_time="$seconds" -print_final_stats=1 >"$told" 2>&1 || true
     inputs=$(sed -n 's/^stat::number_of_executed_units: *//p' "$told")
     reached=$(sed -n 's/.*cov: \([0-9]*\).*/\1/p' "$told" | tail -n 1)
     printf '%-14s %12s %10s %9s\n' "$target" "${inputs:-?}" "${reached:-?}" "$(ls "$artifacts" | wc -l)"
