@@ -63,7 +63,7 @@ impl GrowingLog {
         if raw.scans.is_empty() {
             return Err(raw.why_useless(lines, warnings));
         }
-        raw.keep_best_kind();
+        raw.keep_best_kind(&mut warnings);
         raw.keep_usual_scans(&mut warnings);
         raw.tell_odd_beams(&mut warnings);
         let (view, turn, is_told) = raw.view(&known);
