@@ -9,8 +9,10 @@
 //! ```
 //!
 //! Seconds, metres, radians. The line of names may be missing. A line without ranges is odometry between scans; a range
-//! that is `inf`, `nan`, empty, 0 or negative says nothing. Fields are parted by commas, semicolons or tabs.
+//! that is `inf`, `nan`, empty, 0 or negative says nothing. Fields are parted by commas, semicolons or tabs;
+//! where semicolons part them, commas may be decimal.
 
+use std::borrow::Cow;
 use std::io::{self, BufRead};
 
 use hssh_local::{LaserLog, LogError, LogWarning, RecordedScan, Recording, Scan, TimedPose};
@@ -80,7 +82,8 @@ pub enum TableError {
 /// Whether a text's beginning is that of a table.
 #[must_use]
 pub fn is_table(line: &str) -> bool {
-    let fields: Vec<&str> = fields(line).collect();
+    let line = with_points(line);
+    let fields: Vec<&str> = fields(&line).collect();
     let is_time = ["time", "t", "stamp", "timestamp"].contains(&fields[0].to_ascii_lowercase().as_str());
     let are_numbers =
         fields.len() > COLUMNS.len() && fields[..4].iter().all(|field| field.parse::<f64>().is_ok());
@@ -89,6 +92,17 @@ pub fn is_table(line: &str) -> bool {
 
 fn fields(line: &str) -> impl Iterator<Item = &str> {
     line.split([',', ';', '\t']).map(str::trim)
+}
+
+/// A line with points where it has decimal commas, as tables have whose fields are parted by semicolons: commas part fields only where all
+/// ranges stand between the same two semicolons.
+fn with_points(line: &str) -> Cow<'_, str> {
+    let parted = || line.split(';');
+    let is_decimal = line.contains(',')
+        && line.contains(';')
+        && (parted().count() > COLUMNS.len() + 1
+            || parted().take(COLUMNS.len()).any(|field| field.contains(',')));
+    if is_decimal { Cow::Owned(line.replace(',', ".")) } else { Cow::Borrowed(line) }
 }
 
 /// Reads a table as a laser log.
@@ -143,7 +157,8 @@ impl Table {
         if text.is_empty() {
             return Ok(());
         }
-        let fields: Vec<&str> = fields(text).collect();
+        let text = with_points(text);
+        let fields: Vec<&str> = fields(&text).collect();
         if self.recording.odometry.is_empty()
             && fields[0].starts_with(|c: char| c.is_ascii_alphabetic())
             && fields[0] != "nan"
@@ -243,6 +258,18 @@ mod tests {
         assert_eq!(log.scans[0].scan.ranges, [1.5, f64::INFINITY, 2.0]);
         assert_eq!((0..3).map(|beam| log.scans[0].scan.bearing(beam)).collect::<Vec<_>>(), [-0.5, 0.0, 0.5]);
         assert_eq!((log.scans[1].odometry.x, log.scans[1].time), (2.0, Some(0.2)));
+    }
+
+    #[test]
+    fn commas_between_semicolons_are_decimal() {
+        let points = read("0.5;1.25;0;0;1.5;2\n0.6;1.5;0;0;1;2").unwrap();
+        let commas = read("time;x;y;theta;ranges\n0,5;1,25;0;0;1,5;2\n0,6;1,5;0;0;1;2").unwrap();
+        assert_eq!(commas, points);
+        let all = read("0;0;0;0;1,5;2,5\n1;0;0;0;1,5;2,5").unwrap();
+        assert_eq!(all.scans[1].scan.ranges, [1.5, 2.5]);
+        let list = read("0;0;0;0;1.5,2.5\n1;0;0;0;1.5,2.5").unwrap();
+        assert_eq!(list, all, "ranges between the same two semicolons");
+        assert!(is_table("0,5;1,25;0;0;1,5"));
     }
 
     #[test]

@@ -78,6 +78,12 @@ fn what_is_asked_for_is_used() {
     assert!(
         warnings(&log).contains("no transform says where the laser's frame `rear_laser` is in `base_link`")
     );
+    let both = RecordingOptions { scan: Some("/scan,rear".into()), ..RecordingOptions::default() };
+    let merged = read_bag(&bag("two-lasers"), &both).unwrap();
+    assert!(merged.used[1].starts_with("merged with scans from /rear"), "{:?}", merged.used);
+    assert_eq!(merged.log.scans.len(), 6);
+    // One scan for each of the first laser, with nearly all the hits of both.
+    assert!(merged.log.scans.iter().all(|scan| scan.scan.view == std::f64::consts::TAU));
     let none = RecordingOptions { odometry: Some("none".into()), ..RecordingOptions::default() };
     assert!(warnings(&read_with("usual", &none)).contains("there is no odometry"));
     let frames = RecordingOptions { odometry: Some("odom".into()), ..RecordingOptions::default() };
@@ -119,7 +125,8 @@ fn bags_without_a_laser_say_what_they_have() {
     let account = bag_account(&bag("two-lasers"), &RecordingOptions::default()).unwrap().to_string();
     assert!(
         account.contains(
-            "used:\n  scans from /scan (frame `laser`, 41 beams over 229°); not /rear, which --scan chooses"
+            "used:\n  scans from /scan (frame `laser`, 41 beams over 229°); not /rear, which --scan chooses; \
+             --scan /scan,/rear merges them"
         ),
         "{account}"
     );

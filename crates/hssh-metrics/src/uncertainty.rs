@@ -68,12 +68,37 @@ pub enum UncertaintyError {
 
 /// Checks a matrix once and for all; the result is exactly symmetric.
 fn checked(matrix: Matrix3<f64>) -> Result<Matrix3<f64>, UncertaintyError> {
+    if is_clear(&matrix) {
+        return Ok(matrix);
+    }
     let matrix = checked_symmetric(matrix)?;
     let cholesky = matrix
         .cholesky()
         .ok_or_else(|| UncertaintyError::NotPositiveDefinite(matrix.symmetric_eigenvalues().min()))?;
     let condition = matrix.amax() * cholesky.inverse().amax();
     if condition <= WORST_CONDITION { Ok(matrix) } else { Err(UncertaintyError::IllConditioned(condition)) }
+}
+
+/// Whether a matrix is exactly symmetric, positive definite and well-conditioned beyond all rounding, as most are: by its leading minors
+/// (Sylvester) and by the diagonal of its inverse, where the largest entry of a positive definite matrix stands. Tells nothing if not.
+fn is_clear(matrix: &Matrix3<f64>) -> bool {
+    /// A minor is positive beyond rounding if it is more than this part of the product of its diagonal.
+    const ROOM: f64 = 1e-9;
+    /// Below, products round to subnormal numbers.
+    const LEAST: f64 = 1e-280;
+    let [a, b, c] = [matrix[(0, 0)], matrix[(0, 1)], matrix[(0, 2)]];
+    let [d, e, f] = [matrix[(1, 1)], matrix[(1, 2)], matrix[(2, 2)]];
+    let minors = [d * f - e * e, a * f - c * c, a * d - b * b];
+    let determinant = a * minors[0] - b * (b * f - c * e) + c * (b * e - c * d);
+    let condition = a.max(d).max(f) * minors[0].max(minors[1]).max(minors[2]) / determinant;
+    // No comparison holds of NaN, and no condition is infinite that holds.
+    let is_symmetric = b == matrix[(1, 0)] && c == matrix[(2, 0)] && e == matrix[(2, 1)];
+    is_symmetric
+        && a > 0.0
+        && minors[2] > ROOM * a * d
+        && determinant > ROOM * a * d * f
+        && determinant > LEAST
+        && condition < 0.1 * WORST_CONDITION
 }
 
 /// Checks that all entries are finite and mirrored; the result is so exactly.

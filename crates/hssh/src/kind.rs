@@ -150,6 +150,11 @@ fn of_text(text: &str) -> FileKind {
     if first.starts_with('<') {
         return FileKind::Foreign("a document of tags (XML, HTML, SVG)");
     }
+    if first.starts_with("version https://git-lfs") {
+        return FileKind::Foreign(
+            "a pointer of Git LFS to a file that was not fetched (`git lfs pull` does)",
+        );
+    }
     if ["digraph ", "graph ", "strict "].iter().any(|word| first.starts_with(word)) && text.contains('{') {
         return FileKind::Foreign("a graph for Graphviz");
     }

@@ -61,6 +61,7 @@ impl Errors {
                 SurveyWarning::Lost { .. }
                 | SurveyWarning::NoOdometry
                 | SurveyWarning::OdometryStands { .. }
+                | SurveyWarning::ShortSighted { .. }
                 | SurveyWarning::LaserTurned(_)
                 | SurveyWarning::TurnedWithLaser(_)
                 | SurveyWarning::Interrupted { .. } => {}

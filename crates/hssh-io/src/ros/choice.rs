@@ -16,7 +16,7 @@ const STILL: (f64, f64) = (0.02, 0.02);
 /// What is known beside the recording, and what of it is to be used.
 #[derive(Clone, PartialEq, Debug, Default)]
 pub struct RecordingOptions {
-    /// The topic of the laser.
+    /// The topic of the laser; of several lasers that are to be one, their topics with commas between them.
     pub scan: Option<String>,
     /// The topic of odometry, or the frame of `/tf` in which the robot moves; `none` for scan matching alone.
     pub odometry: Option<String>,
@@ -45,6 +45,8 @@ pub(crate) struct Choice<'a> {
     pub(crate) laser: &'a Laser,
     pub(crate) odometry: Odometry<'a>,
     pub(crate) mount: Mount,
+    /// Lasers whose scans are to be merged with those of the first, and where they sit.
+    pub(crate) others: Vec<(&'a Laser, Mount)>,
     /// Whether the options say where the laser sits.
     pub(crate) is_laser_given: bool,
     /// What was not certain.
@@ -75,7 +77,7 @@ pub(crate) fn choose<'a>(
     options: &RecordingOptions,
 ) -> Result<Choice<'a>, RecordingError> {
     let mut doubts = Vec::new();
-    let laser = laser(gathered, options)?;
+    let (laser, others) = lasers(gathered, options)?;
     let odometry = odometry(gathered, laser, options)?;
     if let Odometry::Frames { parent, child, .. } = &odometry
         && MAPS.contains(parent)
@@ -86,17 +88,35 @@ pub(crate) fn choose<'a>(
     }
     let base =
         options.base_frame.as_deref().or_else(|| odometry.child()).map(|base| base.trim_start_matches('/'));
-    let mount = mount(gathered, laser, base, options, &mut doubts)?;
-    Ok(Choice { laser, odometry, mount, is_laser_given: options.laser.is_some(), doubts })
+    let mount_of = |laser: &Laser, options: &RecordingOptions, doubts: &mut Vec<String>| {
+        mount(gathered, laser, base, options, doubts)
+    };
+    let mount = mount_of(laser, options, &mut doubts)?;
+    // Options say where the first one sits.
+    let unsaid = RecordingOptions { laser: None, ..options.clone() };
+    let others = others.into_iter().map(|laser| Ok((laser, mount_of(laser, &unsaid, &mut doubts)?)));
+    let others = others.collect::<Result<_, RecordingError>>()?;
+    Ok(Choice { laser, odometry, mount, others, is_laser_given: options.laser.is_some(), doubts })
 }
 
-/// The laser that is asked for, or the one that looks widest, of those the one with most beams and scans.
-fn laser<'a>(gathered: &'a Gathered, options: &RecordingOptions) -> Result<&'a Laser, RecordingError> {
+/// The laser that is asked for and others to merge with it, or the one that looks widest, of those the one with most beams and scans.
+fn lasers<'a>(
+    gathered: &'a Gathered,
+    options: &RecordingOptions,
+) -> Result<(&'a Laser, Vec<&'a Laser>), RecordingError> {
     let usable = || gathered.lasers.iter().filter(|laser| !laser.sweeps.is_empty());
     if let Some(asked) = &options.scan {
-        let known = || usable().map(|laser| laser.topic.clone()).collect();
-        let found = usable().find(|laser| is_topic(&laser.topic, asked));
-        return found.ok_or_else(|| RecordingError::NoSuchScan { asked: asked.clone(), known: known() });
+        let mut found: Vec<&Laser> = Vec::new();
+        for asked in asked.split(',').map(str::trim) {
+            let Some(laser) = usable().find(|laser| is_topic(&laser.topic, asked)) else {
+                let known = usable().map(|laser| laser.topic.clone()).collect();
+                return Err(RecordingError::NoSuchScan { asked: asked.to_owned(), known });
+            };
+            if found.iter().all(|other| other.topic != laser.topic) {
+                found.push(laser);
+            }
+        }
+        return Ok((found.remove(0), found));
     }
     let is_level = |laser: &Laser| {
         let above = gathered.frames.above(laser.frame());
@@ -108,7 +128,7 @@ fn laser<'a>(gathered: &'a Gathered, options: &RecordingOptions) -> Result<&'a L
         // Of equal ones the first.
         merit(one).cmp(&merit(other)).then(other.topic.cmp(&one.topic))
     });
-    widest.ok_or_else(|| RecordingError::no_laser(gathered))
+    widest.map(|laser| (laser, Vec::new())).ok_or_else(|| RecordingError::no_laser(gathered))
 }
 
 fn is_topic(topic: &str, asked: &str) -> bool {

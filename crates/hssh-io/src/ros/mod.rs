@@ -8,6 +8,7 @@ mod frames;
 mod gather;
 mod growing;
 mod inventory;
+mod merge;
 mod message;
 mod recording;
 mod sweep;

@@ -8,8 +8,9 @@ use hssh_local::{LaserLog, LogWarning, RecordedScan, Recording, TimedPose};
 use crate::ros::choice::{Choice, Odometry, RecordingOptions, choose};
 use crate::ros::clock::{self, Clock, ClockProblem, REACH, seconds};
 use crate::ros::error::RecordingError;
-use crate::ros::gather::{Gathered, Moment, gather};
-use crate::ros::sweep::{SweepProblem, scan, seconds_to_middle};
+use crate::ros::gather::{Gathered, Laser, Moment, gather};
+use crate::ros::merge::{Other, merged};
+use crate::ros::sweep::{Mount, SweepProblem, scan, seconds_to_middle};
 
 /// A log with what of the bag was used for it.
 #[derive(Clone, PartialEq, Debug)]
@@ -38,11 +39,14 @@ pub(crate) fn read(gathered: &Gathered, options: &RecordingOptions) -> Result<Re
 
 /// What is used, in words.
 pub(crate) fn used(gathered: &Gathered, choice: &Choice<'_>) -> Vec<String> {
-    let Choice { laser, odometry, mount, .. } = choice;
+    let Choice { laser, odometry, mount, others: merged, .. } = choice;
+    let is_used = |other: &Laser| {
+        other.topic == laser.topic || merged.iter().any(|(merged, _)| merged.topic == other.topic)
+    };
     let others: Vec<&str> = gathered
         .lasers
         .iter()
-        .filter(|other| other.topic != laser.topic && !other.sweeps.is_empty())
+        .filter(|other| !is_used(other) && !other.sweeps.is_empty())
         .map(|other| other.topic.as_str())
         .collect();
     let mut used = vec![format!(
@@ -54,9 +58,22 @@ pub(crate) fn used(gathered: &Gathered, choice: &Choice<'_>) -> Vec<String> {
         if others.is_empty() {
             String::new()
         } else {
-            format!("; not {}, which --scan chooses", others.join(", "))
+            let all = std::iter::once(laser.topic.as_str()).chain(others.iter().copied());
+            let all: Vec<&str> = all.collect();
+            format!("; not {}, which --scan chooses; --scan {} merges them", others.join(", "), all.join(","))
         }
     )];
+    for (other, mount) in merged {
+        let ([x, y], turn) = (mount.at, mount.turn.to_degrees());
+        used.push(format!(
+            "merged with scans from {} (frame `{}`, {} beams over {:.0}°), of a laser {x:.2} m ahead of the robot's axis, {y:.2} m to its left \
+             and turned by {turn:.1}°",
+            other.topic,
+            other.frame(),
+            other.beams(),
+            other.view(),
+        ));
+    }
     used.push(match odometry {
         Odometry::Topic(wheels) => {
             format!("odometry from {} (`{}` in `{}`)", wheels.topic, wheels.child, wheels.frame)
@@ -105,9 +122,17 @@ pub(crate) fn recording(gathered: &Gathered, choice: &Choice<'_>) -> Result<Reco
         .map(|&(moment, pose)| TimedPose { time: seconds(clock.time(moment)), pose })
         .collect();
     odometry.sort_by(|one, other| one.time.total_cmp(&other.time));
-    let (mut scans, problems) = scans(choice, &choice.laser.sweeps[..first_scans], clock);
+    let (mut scans, problems) = scans(&choice.mount, &choice.laser.sweeps[..first_scans], clock);
     for (problem, (count, first)) in &problems {
         warn(format!("{}: scan {first} {problem}: left out, {count} in all", choice.laser.topic), true);
+    }
+    if !choice.others.is_empty() {
+        let other = |(laser, mount): &(&Laser, Mount)| Other {
+            at: mount.at,
+            scans: self::scans(mount, &laser.sweeps, clock).0,
+        };
+        let others: Vec<Other> = choice.others.iter().map(other).collect();
+        scans = merged(&scans, choice.mount.at, &others, &odometry);
     }
     if scans.is_empty() {
         let reason = problems.keys().next().map_or_else(String::new, SweepProblem::to_string);
@@ -146,14 +171,14 @@ type SweepProblems = BTreeMap<SweepProblem, (usize, usize)>;
 
 /// The scans in order of time.
 fn scans(
-    choice: &Choice<'_>,
+    mount: &Mount,
     sweeps: &[(Moment, crate::ros::message::LaserScan)],
     clock: Clock,
 ) -> (Vec<RecordedScan>, SweepProblems) {
     let mut problems = SweepProblems::new();
     let mut scans = Vec::with_capacity(sweeps.len());
     for (index, (moment, sweep)) in sweeps.iter().enumerate() {
-        match scan(sweep, &choice.mount) {
+        match scan(sweep, mount) {
             Ok(scan) => {
                 scans.push(RecordedScan {
                     scan,

@@ -163,6 +163,13 @@ pub enum LogWarning {
     },
     /// The scans turn with the robot instead of against it: their beams come in the other order.
     Mirrored,
+    /// The odometry goes to the other side than its heading turns.
+    OtherHanded,
+    /// Ranges scatter as those of no laser do.
+    Noisy {
+        /// Their standard deviation: metres.
+        sigma: f64,
+    },
     /// Something about a recording that its reader has to say.
     Remark {
         /// What, in words.
@@ -211,6 +218,8 @@ impl LogWarning {
             | LogWarning::Facing { .. }
             | LogWarning::OdometryScale { .. }
             | LogWarning::Mirrored
+            | LogWarning::OtherHanded
+            | LogWarning::Noisy { .. }
             | LogWarning::OddParameter { .. }
             | LogWarning::Remark { .. }
             | LogWarning::ScansAlone
@@ -237,6 +246,8 @@ impl LogWarning {
             | LogWarning::Facing { .. }
             | LogWarning::OdometryScale { .. }
             | LogWarning::Mirrored
+            | LogWarning::OtherHanded
+            | LogWarning::Noisy { .. }
             | LogWarning::ScansAlone
             | LogWarning::ScansRepeat { .. }
             | LogWarning::TooFast { .. }
@@ -244,6 +255,19 @@ impl LogWarning {
             | LogWarning::View { .. } => false,
         }
     }
+}
+
+/// The unit of which a metre has so many, up to what wheels err.
+pub(super) fn unit(a_metre: f64) -> Option<&'static str> {
+    const UNITS: [(&str, f64); 5] = [
+        ("millimetres", 1e3),
+        ("centimetres", 1e2),
+        ("decimetres", 10.0),
+        ("inches", 39.37),
+        ("feet", 3.281),
+    ];
+    let is_near = |size: f64| (a_metre / size - 1.0).abs() < 0.1;
+    UNITS.into_iter().find(|&(_, size)| is_near(size)).map(|(name, _)| name)
 }
 
 impl fmt::Display for LogWarning {
@@ -291,14 +315,31 @@ impl fmt::Display for LogWarning {
                  from where it was taken to look; what is made of the log is wrong if it is (--laser-pose says so)",
                 seen.to_degrees()
             ),
-            LogWarning::OdometryScale { seen } => write!(
-                f,
-                "the walls come toward the robot about {seen:.1} times as fast as the odometry says: are both in metres, and are \
-                 the wheels as large as they are said to be? what is made of the log is wrong if not"
-            ),
+            LogWarning::OdometryScale { seen } => {
+                let times = seen.max(1.0 / seen);
+                let more = if *seen > 1.0 { "faster" } else { "more slowly" };
+                write!(f, "the walls come toward the robot about {times:.1} times {more} than the odometry says")?;
+                match (unit(*seen), unit(1.0 / seen)) {
+                    (Some(unit), _) => write!(f, ", as if the ranges were {unit} and the odometry metres")?,
+                    (_, Some(unit)) => write!(f, ", as if the odometry were {unit} and the ranges metres")?,
+                    (None, None) => {}
+                }
+                f.write_str(
+                    ": are both in metres, and are the wheels as large as they are said to be? what is made of the log is wrong if not",
+                )
+            }
             LogWarning::Mirrored => f.write_str(
                 "the walls turn with the robot and not against it: the beams seem to come from left to right, as of a laser \
                  mounted upside down, or the odometry turns the other way; what is made of the log is wrong if so",
+            ),
+            LogWarning::OtherHanded => f.write_str(
+                "the odometry moves to the right where its heading turns to the left, and the other way round: y is mirrored, or headings count \
+                 clockwise; what is made of the log is wrong if so",
+            ),
+            LogWarning::Noisy { sigma } => write!(
+                f,
+                "the ranges of neighboring beams scatter by {sigma:.2} m, as those of no laser do: walls and ways out are guesses; what is made \
+                 of the log may be wrong"
             ),
             LogWarning::LimitDoubted { said, beyond, beams, longest } => write!(
                 f,
@@ -370,10 +411,9 @@ pub enum LogError {
     /// Hardly a beam of any scan came back.
     #[error(
         "hardly anything came back to the laser: {returned} of {beams} beams are shorter than its limit of {limit} m{}",
-        if *is_in_millimetres {
-            "; are the ranges millimetres? A log has metres: divide them by 1000"
-        } else {
-            "; is the limit (`PARAM robot_front_laser_max`) right, and did the laser look at anything?"
+        match unit {
+            Some(unit) => format!("; are the ranges {unit}? A log has metres: convert them"),
+            None => "; is the limit (`PARAM robot_front_laser_max`) right, and did the laser look at anything?".to_owned(),
         }
     )]
     NothingCameBack {
@@ -383,8 +423,19 @@ pub enum LogError {
         beams: u64,
         /// The limit.
         limit: f64,
-        /// Whether the ranges would make sense as millimetres.
-        is_in_millimetres: bool,
+        /// The unit in which the ranges would make sense.
+        unit: Option<&'static str>,
+    },
+    /// Scans in no order.
+    #[error(
+        "the scans are in no order: from one to the next the odometry goes {next:.1} m, and from any to any {any:.1} m; sort the log by time, \
+         and give each drive in a log of its own"
+    )]
+    OutOfOrder {
+        /// The middle one of all ways from a scan to the next: metres.
+        next: f64,
+        /// The middle one of the ways between scans that do not follow one another: metres.
+        any: f64,
     },
     /// A recording without a usable scan.
     #[error("the recording has no usable laser scan")]

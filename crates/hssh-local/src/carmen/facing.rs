@@ -1,10 +1,8 @@
-//! Whether the scans move as the odometry does: where the laser looks backward or sideways, or the odometry counts in other
-//! units, they do not.
+//! Whether the scans move as the odometry does: where the laser looks backward or sideways, they do not.
 //!
 //! Along a straight step the second scan lies on the first one if it is moved by the step, seen from the laser. If the laser
-//! is turned on the robot, it lies there only if the step is turned as well; if the odometry is too long or too short, only if
-//! the step is scaled. All steps of a log are asked together: along a bare corridor ahead and back look alike, and the few
-//! that pass a crossing or near an end decide.
+//! is turned on the robot, it lies there only if the step is turned as well. All steps of a log are asked together: along a bare corridor
+//! ahead and back look alike, and the few that pass a crossing or near an end decide.
 
 use std::f64::consts::{PI, TAU};
 
@@ -29,11 +27,9 @@ const MOST_APART: f64 = 0.3;
 const MOST_POINTS: usize = 181;
 /// Ways to face that are tried, evenly around.
 const FACINGS: usize = 36;
-/// How many times as long as the odometry says the steps may be, if the laser looks ahead: feet for metres and the other way
-/// round among them, and none at all, which fits best along bare walls.
-const SCALES: [f64; 7] = [0.0, 0.305, 0.5, 0.7, 1.4, 2.0, 3.28];
-/// All that is tried.
-const TRIALS: usize = FACINGS + SCALES.len();
+/// All that is tried: the last is no step at all, which fits best along bare walls.
+const TRIALS: usize = FACINGS + 1;
+const STILL: usize = FACINGS;
 const AHEAD: usize = 0;
 const BACK: usize = FACINGS / 2;
 /// A laser that looks elsewhere by less than this is not doubted, in radians: so much wheels slip, or somebody mounts it.
@@ -58,7 +54,6 @@ impl RawLog {
         let facing = if apart.len() < LEAST_STEPS { Facing::Ahead } else { facing(&apart) };
         match facing {
             Facing::Elsewhere(seen) => warnings.push(LogWarning::Facing { seen }),
-            Facing::Scaled(seen) => warnings.push(LogWarning::OdometryScale { seen }),
             Facing::Ahead | Facing::Unknown => {}
         }
         matches!(facing, Facing::Unknown)
@@ -109,7 +104,7 @@ impl Sight {
     fn apart_by_facing(&self, other: &Sight, step: Pose) -> Option<[f64; TRIALS]> {
         let mut apart = [0.0; TRIALS];
         for (trial, apart) in apart.iter_mut().enumerate() {
-            let (facing, scale) = (angle(trial), scale(trial));
+            let (facing, scale) = (angle(trial), if trial == STILL { 0.0 } else { 1.0 });
             let turned = Pose::new(0.0, 0.0, -facing).compose(Pose::new(scale * step.x, scale * step.y, 0.0));
             let step = Pose::new(turned.x, turned.y, step.theta);
             let (there, back) = (self.apart(other, step)?, other.apart(self, step.inverse())?);
@@ -134,13 +129,8 @@ impl Sight {
 
 /// Radians from straight ahead, counterclockwise.
 fn angle(trial: usize) -> f64 {
-    let angle = if trial < FACINGS { TAU * trial as f64 / FACINGS as f64 } else { 0.0 };
+    let angle = if trial == STILL { 0.0 } else { TAU * trial as f64 / FACINGS as f64 };
     if angle > PI { angle - TAU } else { angle }
-}
-
-/// How many times as long as the odometry says.
-fn scale(trial: usize) -> f64 {
-    if trial < FACINGS { 1.0 } else { SCALES[trial - FACINGS] }
 }
 
 /// Which way the laser looks, as the steps tell.
@@ -148,25 +138,21 @@ enum Facing {
     Ahead,
     /// Radians from straight ahead, counterclockwise.
     Elsewhere(f64),
-    /// Ahead, and the steps are so many times as long as the odometry says.
-    Scaled(f64),
     /// Ahead and back look alike.
     Unknown,
 }
 
 fn facing(apart: &[[f64; TRIALS]]) -> Facing {
     let mean = |facing: usize| apart.iter().map(|step| step[facing]).sum::<f64>() / apart.len() as f64;
-    let best =
-        |trials: std::ops::Range<usize>| trials.min_by(|&a, &b| mean(a).total_cmp(&mean(b))).unwrap_or(AHEAD);
     let is_better = |trial: usize| is_nearer(apart, trial, AHEAD) && mean(trial) < BETTER * mean(AHEAD);
-    let (facing, any) = (best(0..FACINGS), best(0..TRIALS));
+    let facing = (0..FACINGS).min_by(|&a, &b| mean(a).total_cmp(&mean(b))).unwrap_or(AHEAD);
     if is_better(facing) && angle(facing).abs() > NEGLIGIBLE {
         Facing::Elsewhere(angle(facing))
     } else if is_nearer(apart, BACK, AHEAD) {
         // Bare walls fit ahead and back; what little there is besides says back.
         Facing::Elsewhere(PI)
-    } else if is_better(any) && any >= FACINGS {
-        if scale(any) > 0.0 { Facing::Scaled(scale(any)) } else { Facing::Unknown }
+    } else if is_better(STILL) && mean(STILL) < mean(facing) {
+        Facing::Unknown
     } else if is_nearer(apart, AHEAD, BACK) {
         Facing::Ahead
     } else {

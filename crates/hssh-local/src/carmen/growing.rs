@@ -63,7 +63,7 @@ impl GrowingLog {
         if raw.scans.is_empty() {
             return Err(raw.why_useless(lines, warnings));
         }
-        raw.keep_best_kind();
+        raw.keep_best_kind(&mut warnings);
         raw.keep_usual_scans(&mut warnings);
         raw.tell_odd_beams(&mut warnings);
         let (view, turn, is_told) = raw.view(&known);
@@ -73,14 +73,20 @@ impl GrowingLog {
             if warnings.len() == before {
                 raw.check_turns(view, &mut warnings);
             }
+            raw.check_handed(&mut warnings);
             raw.check_repeats(&mut warnings);
             raw.check_speed(&mut warnings);
+            raw.check_order()?;
         }
         raw.drop_stray_lines(&mut warnings);
         raw.move_to_laser(&known, &mut warnings);
         raw.bridge_jumps(&mut warnings);
-        let max_range = raw.limit(&mut warnings)?;
+        let max_range = raw.limit(|_| (view, turn), &mut warnings)?;
         let is_facing_unclear = is_whole && raw.check_facing(view, max_range, &mut warnings);
+        if is_whole {
+            raw.check_pace(|_| (view, turn), max_range, &mut warnings);
+            raw.check_noise(|_| (view, turn), max_range, &mut warnings);
+        }
         warnings.sort_by_key(LogWarning::position);
         let geometry = std::iter::repeat((view, turn));
         let is_laser_given = known.pose.is_some();

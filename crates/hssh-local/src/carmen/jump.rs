@@ -52,7 +52,7 @@ impl RawLog {
     }
 
     /// The middle one of all steps that are any.
-    fn usual_step(&self) -> f64 {
+    pub(super) fn usual_step(&self) -> f64 {
         let step = |pair: &[Moment]| pair[0].pose.between(pair[1].pose).translation().norm();
         let mut steps: Vec<f64> = self.trajectory.windows(2).map(step).filter(|&step| step > 1e-3).collect();
         steps.sort_by(f64::total_cmp);

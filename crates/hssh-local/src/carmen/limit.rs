@@ -1,6 +1,6 @@
 //! From which range on a reading means that nothing came back: what the log says, or what its readings say.
 
-use super::error::{LogError, LogWarning};
+use super::error::{LogError, LogWarning, unit};
 use super::raw::RawLog;
 
 /// The parameter that says it.
@@ -32,11 +32,15 @@ impl RawLog {
         self.scans.iter().filter(|scan| scan.ranges.iter().any(is_at)).count()
     }
 
-    /// From how many metres on nothing came back.
+    /// From how many metres on nothing came back. `geometry` is how each scan looks: view and turn in radians.
     ///
     /// # Errors
     /// If hardly a beam came back.
-    pub(crate) fn limit(&self, warnings: &mut Vec<LogWarning>) -> Result<f64, LogError> {
+    pub(crate) fn limit(
+        &self,
+        geometry: impl Fn(usize) -> (f64, f64),
+        warnings: &mut Vec<LogWarning>,
+    ) -> Result<f64, LogError> {
         let said = self.parameter(FRONT_LASER_MAX).filter(|&metres| metres > 0.0);
         let usual = said.unwrap_or(DEFAULT);
         let readings =
@@ -64,9 +68,10 @@ impl RawLog {
             let mut finite: Vec<f64> = readings().filter(|range| range.is_finite()).collect();
             finite.sort_by(f64::total_cmp);
             let middle = finite.get(finite.len() / 2).copied().unwrap_or(0.0) / 1e3;
-            let is_in_millimetres = MILLIMETRES.contains(&middle);
+            let by_pace = self.pace(geometry, f64::INFINITY).and_then(unit);
+            let unit = by_pace.or(MILLIMETRES.contains(&middle).then_some("millimetres"));
             let (returned, beams) = (returned as u64, beams as u64);
-            return Err(LogError::NothingCameBack { returned, beams, limit, is_in_millimetres });
+            return Err(LogError::NothingCameBack { returned, beams, limit, unit });
         }
         Ok(limit)
     }

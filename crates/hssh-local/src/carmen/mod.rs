@@ -4,7 +4,7 @@
 //! |---|---|
 //! | `FLASER n r… x y θ x y θ t host t` | a scan, the corrected pose (for scoring only) and the raw odometry |
 //! | `ROBOTLASER1`, `RAWLASER1` | the same, and how the laser looks; `RAWLASER1` has no poses: odometry before it counts |
-//! | `RLASER …` | as `FLASER`, of a laser that looks back |
+//! | `RLASER …` | as `FLASER`, of a laser that looks back: not used beside others, which is said |
 //! | `ODOM x y θ …` | raw odometry between scans |
 //! | `PARAM name value …` | `robot_front_laser_max`: from that range on nothing came back; `robot_frontlaser_offset` and its kin: where the laser sits; `laser_front_laser_fov`: how wide it looks |
 //! | anything else | counted |
@@ -15,11 +15,15 @@
 mod error;
 mod facing;
 mod growing;
+mod handed;
 mod jump;
 mod limit;
 mod log;
 mod message;
 mod mount;
+mod noise;
+mod order;
+mod pace;
 mod position;
 mod raw;
 mod reader;

@@ -85,9 +85,16 @@ impl RawLog {
         self.parameters.get(name).copied()
     }
 
-    /// Of messages that tell the same scans, or those of other lasers, the most useful kind is kept.
-    pub(super) fn keep_best_kind(&mut self) {
+    /// Of messages that tell the same scans, or those of other lasers, the most useful kind is kept; that a laser is not used is said.
+    pub(super) fn keep_best_kind(&mut self, warnings: &mut Vec<LogWarning>) {
         let best = self.scans.iter().map(|scan| scan.kind).max();
+        let rear = self.scans.iter().filter(|scan| scan.kind == LaserKind::Rear).count();
+        if rear > 0 && best != Some(LaserKind::Rear) {
+            let text = format!(
+                "scans of a second laser, which looks back (RLASER), are not used, {rear} in all: what the one that looks ahead shows is the map"
+            );
+            warnings.push(LogWarning::Remark { text, is_loss: false });
+        }
         let others = self.scans.iter().filter(|scan| Some(scan.kind) != best);
         for scan in others {
             let name = match scan.kind {

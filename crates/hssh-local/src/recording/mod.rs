@@ -75,10 +75,15 @@ impl LaserLog {
             odometry.into_iter().map(|timed| TimedPose { pose: moved(timed.pose), ..timed }).collect()
         };
         let (geometry, mut raw) = merged(scans, &odometry);
+        raw.check_handed(&mut warnings);
         raw.check_repeats(&mut warnings);
         raw.check_speed(&mut warnings);
+        raw.check_order()?;
         raw.bridge_jumps(&mut warnings);
-        let max_range = raw.limit(&mut warnings)?;
+        let looks = |scan: usize| geometry[scan];
+        let max_range = raw.limit(looks, &mut warnings)?;
+        raw.check_pace(looks, max_range, &mut warnings);
+        raw.check_noise(looks, max_range, &mut warnings);
         // A recording says where its laser looks.
         Ok(LaserLog { is_laser_given, ..raw.into_log(geometry, max_range, warnings) })
     }

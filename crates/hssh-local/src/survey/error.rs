@@ -70,6 +70,17 @@ pub enum SurveyWarning {
         /// How far the scans say that the robot went: metres.
         metres: f64,
     },
+    /// A laser that sees less far than ways out have to lead.
+    #[error(
+        "the laser sees no farther than {reach:.1} m, and a way out has to lead {depth} m on: whether ways do is guessed, so that places may be \
+         missing; say with --shallowest that shorter ways count, or use a laser that sees farther"
+    )]
+    ShortSighted {
+        /// The longest range that came back: metres.
+        reach: f64,
+        /// How far a way out has to lead: metres.
+        depth: f64,
+    },
     /// A laser that is not where it was taken to be.
     #[error(
         "the laser seems to be turned by {:.1}° to the left (± {:.1}°) against the odometry: if it is, say so with --laser-pose, \

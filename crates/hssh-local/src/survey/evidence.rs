@@ -39,7 +39,7 @@ pub struct Evidence {
     /// not show it; or may be back, as far as is known; or is back, as the laser shows, where it was hardly expected.
     pub adrift: usize,
     /// On how many stretches the robot was lost: scans lie on nothing that was seen before, wherever they are put. A log
-    /// without odometry counts as one.
+    /// without odometry counts as one, and so does one of a laser that sees too little.
     pub lost: usize,
 }
 

@@ -7,6 +7,7 @@ use super::error::{SurveyError, SurveyWarning};
 use super::evidence::evidence;
 use super::lost::{doubts, turned_laser};
 use super::options::SurveyOptions;
+use super::sight::short_sighted;
 use super::visit::{Survey, Visit};
 use crate::carmen::LaserLog;
 use crate::closing::close_loops;
@@ -105,7 +106,8 @@ pub fn survey_tracked<R: Into<Reply>>(
         }
     });
     let (mut evidence, mut warnings) = evidence(&track, &closed);
-    let lost = doubts(log, &track);
+    let mut lost = doubts(log, &track);
+    lost.extend(short_sighted(log, options.place.depth()));
     evidence.lost = lost.len();
     warnings.extend(lost);
     warnings.extend(turned_laser(log, &track));

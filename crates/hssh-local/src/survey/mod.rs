@@ -10,6 +10,7 @@ mod lost;
 mod options;
 mod resemblance;
 mod returns;
+mod sight;
 mod turn;
 mod visit;
 

@@ -137,3 +137,33 @@ fn a_semidefinite_matrix_is_the_same_again() {
         }
     }
 }
+
+/// Of a matrix that is mirrored to the last digit leading minors tell at a glance that it is definite; of one that is off by a rounding error
+/// Cholesky's factors tell. Eigenvalues know better than both.
+#[test]
+fn what_is_seen_at_a_glance_is_what_a_closer_look_sees() {
+    let mut random = ChaCha8Rng::seed_from_u64(7);
+    let mut normal = || -> f64 { StandardNormal.sample(&mut random) };
+    let (mut accepted, mut refused) = (0, 0);
+    for _ in 0..20_000 {
+        let axes = Matrix3::from_fn(|_, _| normal()).qr().q();
+        let scale = 10_f64.powf(60.0 * normal());
+        let eigenvalues =
+            Vector3::from_fn(|_, _| scale * 10_f64.powf(4.0 * normal()) * (normal() + 1.5).signum());
+        let turned = axes * Matrix3::from_diagonal(&eigenvalues) * axes.transpose();
+        let matrix = 0.5 * (turned + turned.transpose());
+        let mut rounded = matrix;
+        rounded[(1, 0)] = rounded[(1, 0)].next_up();
+        let (glance, look) = (Covariance::new(matrix), Covariance::new(rounded));
+        let (least, most) = (eigenvalues.min(), eigenvalues.max());
+        if least < 0.0 && -least > 1e-9 * most || most > 1e15 * least.abs() {
+            assert!(glance.is_err() && look.is_err(), "{matrix}");
+            refused += 1;
+        } else if least > 0.0 && most < 1e12 * least {
+            assert!(glance.is_ok() && look.is_ok(), "{matrix}");
+            accepted += 1;
+        }
+        assert!(glance.is_err() || glance.unwrap().matrix() == &matrix);
+    }
+    assert!(accepted > 1_000 && refused > 1_000, "{accepted} {refused}");
+}

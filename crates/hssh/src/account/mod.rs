@@ -8,6 +8,7 @@ mod places;
 mod pose_graph;
 mod regions;
 mod roadmap;
+mod scale;
 mod survey;
 mod track;
 

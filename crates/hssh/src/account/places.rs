@@ -12,6 +12,7 @@ use serde::{Deserialize, Serialize};
 
 use super::regions::{PassageAccount, RegionAccount};
 use super::roadmap::RoadmapAccount;
+use super::scale::doubted_scale;
 use crate::answer::{EndReference, counted};
 
 /// The places of a map or along a log; metres and radians in the frame of the map, or of the log's first scan.
@@ -23,6 +24,9 @@ pub struct PlacesAccount {
     pub version: u32,
     /// The map or the log, as it was given.
     pub name: String,
+    /// What speaks against all the rest, if anything does: a map that is hardly drawn to the scale that it says.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub doubt: Option<String>,
     /// The map; absent with logs.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub grid: Option<GridSize>,
@@ -198,10 +202,12 @@ impl PlacesAccount {
             width: found.width,
             line: found.line.clone(),
         };
+        let (regions, passages) = (RegionAccount::all(map, roadmap), PassageAccount::all(map, roadmap));
         PlacesAccount {
+            doubt: doubted_scale(&regions, &passages),
             grid: Some(GridSize::of(map.lattice())),
-            regions: RegionAccount::all(map, roadmap),
-            passages: PassageAccount::all(map, roadmap),
+            regions,
+            passages,
             places: roadmap.places.iter().map(place).collect(),
             connections: roadmap.connections.iter().map(connection).collect(),
             roadmap: Some(RoadmapAccount::new(roadmap, radius)),
@@ -254,10 +260,12 @@ impl PlacesAccount {
             let inside = (0..).zip(&places).filter(|(_, place)| place.region == Some(number));
             region.places = inside.map(|(place, _)| place).collect();
         }
+        let passages = PassageAccount::all(map, roadmap);
         PlacesAccount {
+            doubt: doubted_scale(&regions, &passages),
             grid: Some(GridSize::of(grid.lattice())),
             regions,
-            passages: PassageAccount::all(map, roadmap),
+            passages,
             places,
             connections: graph.connections.iter().map(connection).collect(),
             constrictions: graph.constrictions.iter().map(constriction).collect(),
@@ -272,6 +280,7 @@ impl PlacesAccount {
             format: Self::FORMAT.to_owned(),
             version: Self::VERSION,
             name: name.to_owned(),
+            doubt: None,
             grid: None,
             regions: Vec::new(),
             passages: Vec::new(),
@@ -285,6 +294,9 @@ impl PlacesAccount {
 
 impl fmt::Display for PlacesAccount {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        if let Some(doubt) = &self.doubt {
+            writeln!(f, "DOUBTFUL: {doubt}")?;
+        }
         match &self.grid {
             Some(GridSize { width, height, resolution }) => writeln!(
                 f,

@@ -162,7 +162,8 @@ impl StarsArguments {
 #[derive(Clone, Debug, Default, Args)]
 #[command(next_help_heading = "Bags")]
 pub(crate) struct TopicArguments {
-    /// The topic with the scans of a bag [default: of the laser that looks widest].
+    /// The topic with the scans of a bag [default: of the laser that looks widest]; several with commas between them, such as
+    /// `/front,/rear`, are merged to what one laser would see all around
     #[arg(long, value_name = "TOPIC")]
     pub(crate) scan: Option<String>,
     /// The topic with the odometry of a bag, or the frame of /tf in which the robot moves; `none` for scan matching alone

@@ -73,6 +73,8 @@ pub(super) fn warnings(log: &LaserLog) -> Vec<AnswerWarning> {
             LogWarning::OdometryScale { .. }
             | LogWarning::TooFast { .. }
             | LogWarning::TurnsApart { .. }
+            | LogWarning::OtherHanded
+            | LogWarning::Noisy { .. }
             | LogWarning::ScansRepeat { .. } => WarningKind::Questionable,
             LogWarning::StrayOdometry { .. } | LogWarning::OddParameter { .. } => WarningKind::MessageLeftOut,
             LogWarning::View { .. } | LogWarning::Facing { .. } | LogWarning::Mirrored => {
@@ -107,6 +109,7 @@ pub(super) fn warn_of(found: &[SurveyWarning], log: &LaserLog, warnings: &mut Ve
                 (WarningKind::UnconfirmedReturn, scan)
             }
             SurveyWarning::Lost { first, .. } => (WarningKind::Lost, first),
+            SurveyWarning::ShortSighted { .. } => (WarningKind::Questionable, 1),
             SurveyWarning::LaserTurned(_) | SurveyWarning::TurnedWithLaser(_) => (WarningKind::LaserPose, 1),
             SurveyWarning::NoOdometry => (WarningKind::NoOdometry, 1),
             SurveyWarning::OdometryStands { first, .. } => (WarningKind::NoOdometry, first),

@@ -3,6 +3,7 @@
 //! Each is a neighbor of a fault that users of such programs reported: a mark before the first record, another unit, a laser
 //! that is mounted otherwise.
 
+use std::f64::consts::FRAC_PI_2;
 use std::fmt::Write as _;
 use std::process::Output;
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -67,6 +68,11 @@ fn seen(log: &str, mut change: impl FnMut(Vec<String>) -> Vec<String>) -> String
     })
 }
 
+/// The log with another limit of ranges.
+fn seen_to(log: &str, limit: f64) -> String {
+    log.replace("robot_front_laser_max 30.00", &format!("robot_front_laser_max {limit}"))
+}
+
 fn graphs() -> Vec<Fault> {
     let read = |name: &str| std::fs::read_to_string(root().join("fixtures/graphs").join(name)).unwrap();
     let (laps, toro) = (read("two-laps.g2o"), read("two-laps-toro.graph"));
@@ -94,6 +100,27 @@ fn logs(ring: &str) -> Vec<Fault> {
         let longer = |word: String| (factor * word.parse::<f64>().unwrap()).to_string();
         seen(ring, |beams| beams.into_iter().map(longer).collect())
     };
+    let times_at_most = |reach: f64| {
+        let seen = |word: String| format!("{:.3}", word.parse::<f64>().unwrap().min(reach));
+        seen_to(&self::seen(ring, |beams| beams.into_iter().map(seen).collect()), reach)
+    };
+    // A sum of sines of the number of a reading: as good as chance, and the same each time.
+    let mut reading = 0.0;
+    let scattered = seen(ring, |beams| {
+        let mut scatter = |word: String| {
+            reading += 1.0;
+            let chance: f64 =
+                [1.0_f64, 2.3, 3.7, 5.1].iter().map(|step| (step * step * reading * reading).sin()).sum();
+            format!("{:.3}", (word.parse::<f64>().unwrap() + 0.2 * chance).max(0.02))
+        };
+        beams.into_iter().map(&mut scatter).collect()
+    });
+    let mut lines: Vec<&str> = ring.lines().collect();
+    let behind = lines.len() - 1;
+    for (index, other) in (1..lines.len()).map(|index| (index, 1 + index * index * 7_919 % behind)) {
+        lines.swap(index, other);
+    }
+    let shuffled = lines.join("\n");
     let mirrored = |mut beams: Vec<String>| {
         beams.reverse();
         beams
@@ -135,7 +162,25 @@ fn logs(ring: &str) -> Vec<Fault> {
             0,
             "DOUBTFUL",
         ),
-        fault("ranges in centimetres", map, times(100.0), 2, "hardly anything came back"),
+        fault("ranges in centimetres", map, times(100.0), 2, "are the ranges centimetres?"),
+        fault("ranges in decimetres", map, times(10.0), 0, "DOUBTFUL: the log says that nothing comes back"),
+        fault(
+            "ranges twice as long",
+            map,
+            times(2.0),
+            0,
+            "DOUBTFUL: the walls come toward the robot about 2",
+        ),
+        fault("ranges half as long", map, times(0.5), 0, "DOUBTFUL: the walls come toward the robot about 2"),
+        fault(
+            "a laser that sees two metres",
+            map,
+            times_at_most(2.0),
+            0,
+            "DOUBTFUL: the laser sees no farther",
+        ),
+        fault("ranges that scatter", map, scattered, 0, "DOUBTFUL: the ranges of neighboring beams scatter"),
+        fault("scans in no order", map, shuffled, 2, "the scans are in no order"),
         fault("ranges in millimetres", map, times(1000.0), 2, "millimetres"),
         fault("a word among the beams", map, odd("abc"), 0, right),
         fault("-1.#IND among the beams", map, odd("-1.#IND"), 0, right),
@@ -174,7 +219,23 @@ fn logs(ring: &str) -> Vec<Fault> {
             0,
             "DOUBTFUL",
         ),
-        fault("odometry in feet", map, scaled(3.28), 0, "DOUBTFUL: the walls come toward"),
+        fault(
+            "y to the other side",
+            map,
+            driven(ring, |[x, y, theta]| [x, -y, theta]),
+            0,
+            "DOUBTFUL: the odometry moves to the right",
+        ),
+        fault(
+            "headings of a compass",
+            map,
+            driven(ring, |[x, y, theta]| [x, y, FRAC_PI_2 - theta]),
+            0,
+            "DOUBTFUL",
+        ),
+        fault("odometry in feet", map, scaled(3.281), 0, "as if the odometry were feet"),
+        fault("odometry in inches", map, scaled(39.37), 0, "DOUBTFUL"),
+        fault("odometry in kilometres", map, scaled(0.001), 0, "DOUBTFUL"),
         fault("wheels of twice the size", map, scaled(2.0), 0, "DOUBTFUL: the walls come toward"),
         fault("wheels of half the size", map, scaled(0.5), 0, "DOUBTFUL: the walls come toward"),
         fault("odometry in millimetres", map, scaled(1000.0), 0, "DOUBTFUL: the odometry goes at"),
@@ -237,6 +298,14 @@ fn maps() -> Vec<Fault> {
         fault("negate of two", "stars FILE", yaml("0.1", "negate: 2\n"), 2, "negate"),
         fault("a resolution of none", "stars FILE", yaml("0", "negate: 0\n"), 2, "resolution"),
         fault("a resolution of .nan", "stars FILE", yaml(".nan", "negate: 0\n"), 2, "resolution"),
+        fault(
+            "cells ten times too large",
+            "stars FILE",
+            yaml("1", "negate: 0\n"),
+            0,
+            "DOUBTFUL: half of the rooms",
+        ),
+        fault("cells ten times too small", "stars FILE", yaml("0.01", "negate: 0\n"), 0, "DOUBTFUL: no room"),
         fault("a cell of a kilometre", "stars FILE", yaml("1e3", "negate: 0\n"), 2, "from 0.001 to 100"),
     ]
 }

@@ -38,7 +38,7 @@ fn a_mark_or_another_encoding_changes_nothing() {
 #[test]
 fn what_another_command_takes_is_told() {
     let log = "FLASER 3 1 1 1 0 0 0 0 0 0 0.5 host 0.5\n";
-    let cases: [(&str, &[u8], &str, &str); 9] = [
+    let cases: [(&str, &[u8], &str, &str); 10] = [
         ("map", b"VERTEX_SE2 0 0 0 0\n", "a pose graph (its first record is `VERTEX_SE2`)", "`hssh graph`"),
         ("check", log.as_bytes(), "a laser log (its first message is `FLASER`)", "`hssh map`"),
         ("graph", log.as_bytes(), "a laser log", "`hssh map`"),
@@ -48,6 +48,12 @@ fn what_another_command_takes_is_told() {
         ("map", b"image: a.pgm\nresolution: 1\n", "the description of a grid map", "`hssh stars`"),
         ("map", b"{\n  \"format\": \"hssh-answer\",", "what hssh wrote (hssh-answer)", ""),
         ("check", &[0; 5000], "binary data", ""),
+        (
+            "map",
+            b"version https://git-lfs.github.com/spec/v1\noid sha256:0\n",
+            "a pointer of Git LFS",
+            "`git lfs pull`",
+        ),
     ];
     for (command, bytes, is, advice) in cases {
         let (code, said) = said(&[command, &written("some.file", bytes)]);
