@@ -40,8 +40,11 @@ impl DistanceField {
             let mut envelope = Envelope::default();
             lines.enumerate().for_each(|(row, line)| fill(&mut envelope, row, line));
         } else {
-            let lines = field.squared.par_chunks_exact_mut(width).zip(field.columns.par_chunks_exact_mut(width));
-            lines.enumerate().for_each_init(Envelope::default, |envelope, (row, line)| fill(envelope, row, line));
+            let lines =
+                field.squared.par_chunks_exact_mut(width).zip(field.columns.par_chunks_exact_mut(width));
+            lines
+                .enumerate()
+                .for_each_init(Envelope::default, |envelope, (row, line)| fill(envelope, row, line));
         }
         field
     }

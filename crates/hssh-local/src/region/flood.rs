@@ -96,7 +96,9 @@ pub(super) fn flood(field: &DistanceField, joining: Joining) -> Pieces {
             1 => met[0],
             _ => basins.meet(&mut met[..count], distance, joining).unwrap_or_else(|| {
                 let labeled = around(lattice, index).filter(|&near| labels[near] != NO_PIECE);
-                let widest = labeled.map(|near| (field.squared_at(near), basins.sets.representative(labels[near]))).max();
+                let widest = labeled
+                    .map(|near| (field.squared_at(near), basins.sets.representative(labels[near])))
+                    .max();
                 widest.map_or(NO_PIECE, |(_, basin)| basin)
             }),
         };

@@ -32,8 +32,7 @@ impl Roadmap {
             })
             .collect();
         let passage_nodes = roadmap.nodes.len() as u32;
-        let ground =
-            region::Ground { map, field: &field, exits: &exits, passages: &passages, passage_nodes };
+        let ground = region::Ground { map, field: &field, exits: &exits, passages: &passages, passage_nodes };
         // Each region by itself, on as many threads as there are; what they add is put together in their order.
         let roads: Vec<region::RegionRoads> = (0..map.regions.len())
             .into_par_iter()

@@ -62,7 +62,8 @@ impl RegionRoads {
         options: &RoadmapOptions,
     ) -> Self {
         let Ground { map, field, exits, passages, .. } = *ground;
-        let doors: Vec<Cell> = map.passages_of(region).filter_map(|passage| exits[passage as usize]).collect();
+        let doors: Vec<Cell> =
+            map.passages_of(region).filter_map(|passage| exits[passage as usize]).collect();
         let window = Window::new(map, region, bounds, field, &doors, options);
         let own: Vec<(u32, RoadNodeNumber, usize)> = map
             .passages_of(region)
@@ -139,8 +140,7 @@ impl Drawing<'_> {
         let number = PlaceNumber(self.roads.places.len() as u32);
         let (region, center) = (self.region, self.ground.map.lattice().center(at));
         // A junction in a passage is the place of the region all the same.
-        let node =
-            self.node(spot, RoadNode { kind: RoadNodeKind::Place(number), region, position: center });
+        let node = self.node(spot, RoadNode { kind: RoadNodeKind::Place(number), region, position: center });
         let clearance = self.ground.field.clearance(at);
         self.roads.places.push(RegionPlace { region, node, center, clearance, star: None });
     }

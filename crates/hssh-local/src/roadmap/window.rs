@@ -216,7 +216,9 @@ impl<'a> Window<'a> {
             (column - mean[0]).powi(2) + (row - mean[1]).powi(2)
         };
         let widest = largest.into_iter().filter(|&position| clearance(position) >= widest);
-        let nearest = widest.map(|position| (off(position), position)).min_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
+        let nearest = widest
+            .map(|position| (off(position), position))
+            .min_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
         nearest.map(|(_, position)| position as usize)
     }
 
