@@ -6,7 +6,8 @@ use std::error::Error;
 use std::path::Path;
 
 use hssh_local::{
-    Cell, DistanceField, Lattice, Occupancy, OccupancyGrid, RegionMap, RegionOptions, read_floor_plan,
+    Cell, DistanceField, Gateway, Lattice, Occupancy, OccupancyGrid, RegionMap, RegionOptions,
+    read_floor_plan,
 };
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
@@ -38,6 +39,8 @@ const SEEN: f64 = 0.5;
 /// A passage is at a true one if their middles are no farther apart, in metres; true ones are doors if they are as wide as this.
 const NEAR: f64 = 0.6;
 const DOOR_WIDTHS: std::ops::RangeInclusive<f64> = 0.55..=1.2;
+/// How far before and behind a passage rooms of the truth are looked for, in metres.
+const BESIDE: [f64; 5] = [0.2, 0.4, 0.6, 0.8, 1.0];
 /// The probabilities of doors are told in so many classes.
 const CLASSES: usize = 5;
 
@@ -155,7 +158,13 @@ impl Count {
         self.portals += portals.len();
         self.found +=
             portals.iter().filter(|portal| middles.iter().any(|&at| near(portal.middle, at))).count();
-        for passage in &map.passages {
+        // What leads to no room of the truth may be a door or none.
+        let is_known = |gateway: &Gateway| {
+            let is_beside =
+                |sign: f64| BESIDE.iter().any(|far| room_at(ahead(gateway, sign * far)).is_some());
+            is_beside(1.0) && is_beside(-1.0)
+        };
+        for passage in map.passages.iter().filter(|passage| is_known(&passage.gateway)) {
             let is_door = portals.iter().any(|portal| {
                 near(portal.middle, passage.gateway.position) && DOOR_WIDTHS.contains(&portal.width)
             });
@@ -189,6 +198,12 @@ impl Count {
         ]);
         row
     }
+}
+
+/// The point so many metres beyond the middle of a gateway.
+fn ahead(gateway: &Gateway, far: f64) -> [f64; 2] {
+    let (sin, cos) = gateway.bearing.sin_cos();
+    [gateway.position[0] + far * cos, gateway.position[1] + far * sin]
 }
 
 /// A plan turned around its middle, which is the origin of what is drawn.

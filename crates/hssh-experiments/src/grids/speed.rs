@@ -5,9 +5,11 @@ use std::path::Path;
 use std::time::Instant;
 
 use hssh_local::{
-    DistanceField, FreeSpace, Lattice, Occupancy, OccupancyGrid, PlaceGraph, PlaceGraphError, PlaceOptions, RegionMap,
-    RegionOptions, Roadmap, RoadmapOptions, Skeleton, neighborhood, read_map,
+    DistanceField, FreeSpace, Lattice, Occupancy, OccupancyGrid, PlaceGraph, PlaceGraphError, PlaceOptions,
+    RegionMap, RegionOptions, Roadmap, RoadmapOptions, Skeleton, neighborhood, read_map,
 };
+
+use crate::bench::usage::Usage;
 
 /// Runs of each measurement, of which the median counts.
 const RUNS: usize = 5;
