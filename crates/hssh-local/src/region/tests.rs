@@ -95,14 +95,6 @@ fn furniture_and_gray_rims_part_nothing() {
 }
 
 /// A wall that a laser saw in pieces, each no longer than a chair.
-/// A leaf of 0.8 m that stands open at a right angle, hinged at the wall, beside the door to the room.
-#[test]
-fn an_open_leaf_parts_no_room() {
-    let leaf = ([2.0, 2.7, 2.05, 3.5], Occupancy::Occupied);
-    let map = regions(&floor([13.0, 8.0], &ROOMS, &[leaf]));
-    assert_eq!(map.regions.len(), 3, "{:?}", map.regions);
-}
-
 /// Cells of the wall that stand out on both sides, now and then, as a laser draws them.
 #[test]
 fn a_corridor_with_rough_walls_is_one_region() {
