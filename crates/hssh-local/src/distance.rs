@@ -1,12 +1,16 @@
 //! The exact Euclidean distance transform: how far each cell is from the nearest obstacle, and which
 //! one that is, in time linear in the number of cells (after Meijster, Roerdink and Hesselink, 2000).
 
+use rayon::prelude::*;
+
 use crate::grid::{Cell, Lattice};
 
 /// Marks a cell without any obstacle to measure from.
 const NOWHERE: u32 = u32::MAX;
 /// The same for a row or a column: a lattice has none with that number.
 const NO_LINE: u16 = u16::MAX;
+/// From so many cells on, rows are filled in on several threads: fewer take less time than it takes to wake these.
+const MANY: usize = 1 << 18;
 
 /// For each cell of a lattice its nearest obstacle.
 ///
@@ -28,10 +32,19 @@ impl DistanceField {
         let mut field =
             DistanceField { lattice, squared: vec![0; lattice.len()], columns: vec![0; lattice.len()] };
         let width = lattice.width() as usize;
-        let lines = field.squared.chunks_exact_mut(width).zip(field.columns.chunks_exact_mut(width));
-        let mut envelope = Envelope::default();
-        for ((row, rows), (squared, columns)) in (0..).zip(rows.chunks_exact(width)).zip(lines) {
-            envelope.fill(row, rows, squared, columns);
+        let fill = |envelope: &mut Envelope, row: usize, (squared, columns): (&mut [u32], &mut [u16])| {
+            envelope.fill(row as u16, &rows[row * width..][..width], squared, columns);
+        };
+        if lattice.len() < MANY {
+            let lines = field.squared.chunks_exact_mut(width).zip(field.columns.chunks_exact_mut(width));
+            let mut envelope = Envelope::default();
+            lines.enumerate().for_each(|(row, line)| fill(&mut envelope, row, line));
+        } else {
+            let lines =
+                field.squared.par_chunks_exact_mut(width).zip(field.columns.par_chunks_exact_mut(width));
+            lines
+                .enumerate()
+                .for_each_init(Envelope::default, |envelope, (row, line)| fill(envelope, row, line));
         }
         field
     }

@@ -4,8 +4,11 @@ use std::collections::BTreeSet;
 use std::error::Error;
 use std::path::Path;
 
-use hssh_local::{Passage, RegionMap, RegionOptions, Roadmap, RoadmapOptions, read_map};
+use hssh_local::{
+    DistanceField, Occupancy, Passage, RegionMap, RegionOptions, Roadmap, RoadmapOptions, read_map,
+};
 
+use super::bottleneck::bottleneck;
 use super::doors::{self, Door};
 use super::rooms::{Rooms, passages};
 use super::segmentation::{self, Agreement};
@@ -35,20 +38,34 @@ pub(super) fn report(folder: &Path) -> Result<String, Box<dyn Error>> {
         room_of: lattice
             .cells()
             .map(|cell| {
-                let is_free = grid.get(cell) == hssh_local::Occupancy::Free;
+                let is_free = grid.get(cell) == Occupancy::Free;
                 room_of(lattice.center(cell)).filter(|_| is_free).map(|room| room as u32)
             })
             .collect(),
         count: rooms.locations.len(),
     };
+    let field = DistanceField::new(lattice, |index| grid.cells()[index] != Occupancy::Free);
+    let closed = RegionOptions::default().narrowest;
+    let missed: Vec<((usize, usize), f64)> = truth
+        .difference(&found)
+        .map(|&(a, b)| ((a, b), bottleneck(&field, &true_rooms.room_of, [a as u32, b as u32])))
+        .collect();
+    let open = truth.len() - missed.iter().filter(|&&(_, width)| width < closed).count();
+    let missed = missed
+        .iter()
+        .map(|&((a, b), width)| format!("{}-{} {width:.2} m", rooms.locations[a], rooms.locations[b]));
     let [mcc, precision, recall, f1, regions] = Agreement::of(&map, &true_rooms).cells();
     let mut text = format!(
         "gdc3: regions: MCC {mcc}, precision {precision}, recall {recall}, F1 {f1}, {regions}\n\
-         pairs of rooms that connections join: {}, right {right} ({:.0}%); of the {} true pairs found: {:.0}%\n",
+         pairs of rooms that connections join: {}, right {right} ({:.0}%); of the {} true pairs found: {:.0}%; \
+         of the {open} that the map shows to be connected by at least {closed} m: {:.0}%\n\
+         missed, with the width of the widest way: {}\n",
         found.len(),
         percent(right, found.len()),
         truth.len(),
         percent(right, truth.len()),
+        percent(right, open),
+        missed.collect::<Vec<_>>().join(", "),
     );
     let doors = doors::read(folder)?;
     let wide = |door: &&Door| {

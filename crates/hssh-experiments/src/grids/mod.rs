@@ -1,6 +1,7 @@
 //! `cargo xtask grids`: gateways, places and stars of real grid maps beside what is known of the buildings.
 
 mod aces;
+mod bottleneck;
 mod crossing;
 mod doors;
 mod floor;

@@ -6,7 +6,8 @@ use std::error::Error;
 use std::path::Path;
 
 use hssh_local::{
-    Cell, DistanceField, Lattice, Occupancy, OccupancyGrid, RegionMap, RegionOptions, read_floor_plan,
+    Cell, DistanceField, Gateway, Lattice, Occupancy, OccupancyGrid, RegionMap, RegionOptions,
+    read_floor_plan,
 };
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
@@ -35,16 +36,18 @@ const HEADING_NOISE: f64 = 0.004;
 const OCCUPIED: f64 = 0.3;
 /// The part of a room's cells that have to be seen for it to count.
 const SEEN: f64 = 0.5;
-/// A passage is at a true one if their middles are no farther apart, in metres; true ones are doors if they are as wide as this.
+/// A true passage is found if there is one no farther off, in metres. What leads from one room of the truth to another is a true
+/// passage, however far apart they are drawn, and a door if it is as wide as this.
 const NEAR: f64 = 0.6;
 const DOOR_WIDTHS: std::ops::RangeInclusive<f64> = 0.55..=1.2;
+/// How far before and behind a passage rooms of the truth are looked for, in metres.
+const BESIDE: [f64; 5] = [0.2, 0.4, 0.6, 0.8, 1.0];
 /// The probabilities of doors are told in so many classes.
 const CLASSES: usize = 5;
 
 /// Where two true rooms meet.
 struct Portal {
     middle: [f64; 2],
-    width: f64,
 }
 
 /// What was found in the drawings of one kind.
@@ -143,22 +146,26 @@ impl Count {
         let count = numbers.iter().flatten().count();
         self.agreements.push(Agreement::of(&map, &Rooms { room_of, count }));
         let is_seen = |point: [f64; 2]| drawn.at(point) == Occupancy::Free;
-        let portals = portals(plan, rooms)
-            .into_iter()
-            .map(|portal| Portal { middle: to_plan.there(portal.middle), ..portal });
+        let portals =
+            portals(plan, rooms).into_iter().map(|portal| Portal { middle: to_plan.there(portal.middle) });
         let portals: Vec<Portal> = portals.filter(|portal| is_seen(portal.middle)).collect();
         let middles: Vec<[f64; 2]> = map.passages.iter().map(|passage| passage.gateway.position).collect();
         let near = |a: [f64; 2], b: [f64; 2]| (a[0] - b[0]).hypot(a[1] - b[1]) <= NEAR;
-        self.passages += middles.len();
-        self.right +=
-            middles.iter().filter(|&&at| portals.iter().any(|portal| near(portal.middle, at))).count();
         self.portals += portals.len();
         self.found +=
             portals.iter().filter(|portal| middles.iter().any(|&at| near(portal.middle, at))).count();
+        // What leads to no room of the truth may be a door or none.
+        let beside =
+            |gateway: &Gateway, sign: f64| BESIDE.iter().find_map(|far| room_at(ahead(gateway, sign * far)));
         for passage in &map.passages {
-            let is_door = portals.iter().any(|portal| {
-                near(portal.middle, passage.gateway.position) && DOOR_WIDTHS.contains(&portal.width)
-            });
+            let gateway = &passage.gateway;
+            let [Some(before), Some(behind)] = [-1.0, 1.0].map(|sign| beside(gateway, sign)) else {
+                continue;
+            };
+            let is_right = before != behind;
+            let is_door = is_right && DOOR_WIDTHS.contains(&gateway.width);
+            self.passages += 1;
+            self.right += usize::from(is_right);
             let class = ((passage.door_probability * CLASSES as f64) as usize).min(CLASSES - 1);
             let (passages, sum, doors) = &mut self.classes[class];
             *passages += 1;
@@ -189,6 +196,12 @@ impl Count {
         ]);
         row
     }
+}
+
+/// The point so many metres beyond the middle of a gateway.
+fn ahead(gateway: &Gateway, far: f64) -> [f64; 2] {
+    let (sin, cos) = gateway.bearing.sin_cos();
+    [gateway.position[0] + far * cos, gateway.position[1] + far * sin]
 }
 
 /// A plan turned around its middle, which is the origin of what is drawn.
@@ -333,11 +346,7 @@ fn grouped(mut cells: Vec<Cell>, lattice: &Lattice) -> Vec<Portal> {
         let points: Vec<[f64; 2]> = group.iter().map(|&cell| lattice.center(cell)).collect();
         let count = points.len() as f64;
         let middle = [0, 1].map(|axis| points.iter().map(|point| point[axis]).sum::<f64>() / count);
-        let extent = |axis: usize| {
-            let along = points.iter().map(|point| point[axis]);
-            along.clone().fold(f64::NEG_INFINITY, f64::max) - along.fold(f64::INFINITY, f64::min)
-        };
-        portals.push(Portal { middle, width: extent(0).hypot(extent(1)) + lattice.resolution() });
+        portals.push(Portal { middle });
     }
     portals
 }

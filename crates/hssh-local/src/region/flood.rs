@@ -80,7 +80,6 @@ pub(super) fn flood(field: &DistanceField, joining: Joining) -> Pieces {
         let distance = f64::from(field.squared_at(index)).sqrt() as f32 - 0.5;
         let mut met: [u32; 8] = [NO_PIECE; 8];
         let mut count = 0;
-        let mut nearest = (0, NO_PIECE);
         for near in around(lattice, index) {
             let label = labels[near];
             if label == NO_PIECE {
@@ -91,12 +90,17 @@ pub(super) fn flood(field: &DistanceField, joining: Joining) -> Pieces {
                 met[count] = root;
                 count += 1;
             }
-            nearest = nearest.max((field.squared_at(near), root));
         }
         labels[index] = match count {
             0 => basins.add(index as u32, distance),
             1 => met[0],
-            _ => basins.meet(&mut met[..count], distance, joining).unwrap_or(nearest.1),
+            _ => basins.meet(&mut met[..count], distance, joining).unwrap_or_else(|| {
+                let labeled = around(lattice, index).filter(|&near| labels[near] != NO_PIECE);
+                let widest = labeled
+                    .map(|near| (field.squared_at(near), basins.sets.representative(labels[near])))
+                    .max();
+                widest.map_or(NO_PIECE, |(_, basin)| basin)
+            }),
         };
     }
     numbered(labels, basins, joining)
@@ -149,9 +153,12 @@ fn widest_first(field: &DistanceField) -> Vec<u32> {
 
 /// The indices of the eight cells around one, as far as they are on the lattice.
 pub(super) fn around(lattice: &Lattice, index: usize) -> impl Iterator<Item = usize> + use<> {
-    let (width, height) = (lattice.width() as usize, lattice.height() as usize);
-    let (column, row) = (index % width, index / width);
+    // Division of shorter numbers takes half the time.
+    let (width, at) = (lattice.width(), index as u32);
+    let (column, row) = (at % width, at / width);
     let (has_left, has_right) = (column > 0, column + 1 < width);
+    let has_above = row + 1 < lattice.height();
+    let width = width as usize;
     let mut near = [0; 8];
     let mut count = 0;
     let mut add = |is_there: bool, position: usize| {
@@ -167,7 +174,7 @@ pub(super) fn around(lattice: &Lattice, index: usize) -> impl Iterator<Item = us
     }
     add(has_left, index.wrapping_sub(1));
     add(has_right, index + 1);
-    if row + 1 < height {
+    if has_above {
         add(has_left, index + width - 1);
         add(true, index + width);
         add(has_right, index + width + 1);

@@ -33,7 +33,7 @@ pub(super) fn cut_odds(border: &Border, sides: [Extent; 2], options: &CutOptions
     let open = border.open();
     let open_part = open / (open + border.wall);
     let width = a.width().min(b.width());
-    let narrowness = border.widest(width) / width;
+    let narrowness = (border.widest(width) + options.rough) / width;
     let smallness = (a.area.min(b.area) / options.room).min(1.0);
     let slenderness = (width / options.room_width).min(1.0);
     options.base - options.walled * open_part.ln() - options.narrow * narrowness.ln()

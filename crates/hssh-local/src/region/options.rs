@@ -45,6 +45,9 @@ pub struct CutOptions {
     pub walled: f64,
     /// The power of how much narrower the opening is than the space on its narrower side. Default: 1.0.
     pub narrow: f64,
+    /// Openings count as wider by this: as far as walls are drawn rough, what is narrower there is no constriction.
+    /// Default: 0.05 m.
+    pub rough: f64,
     /// The power by which the area of the smaller piece counts if it is smaller than [`room`](Self::room): niches
     /// and gaps between furniture are no rooms. Default: 0.35.
     pub small: f64,
@@ -129,6 +132,7 @@ impl Default for CutOptions {
             base: -0.05,
             walled: 2.4,
             narrow: 1.0,
+            rough: 0.05,
             small: 0.35,
             room: 4.7,
             slender: 1.2,

@@ -95,6 +95,19 @@ fn furniture_and_gray_rims_part_nothing() {
 }
 
 /// A wall that a laser saw in pieces, each no longer than a chair.
+/// Cells of the wall that stand out on both sides, now and then, as a laser draws them.
+#[test]
+fn a_corridor_with_rough_walls_is_one_region() {
+    let bump = |at: u32| {
+        let left = 1.0 + 1.35 * f64::from(at);
+        let bottom = if at.is_multiple_of(2) { 0.5 } else { 2.45 };
+        ([left, bottom, left + 0.05, bottom + 0.05], Occupancy::Occupied)
+    };
+    let bumps: Vec<([f64; 4], Occupancy)> = (0..12).map(bump).collect();
+    let map = regions(&floor([18.0, 3.0], &[[0.5, 0.5, 17.5, 2.5]], &bumps));
+    assert_eq!(map.regions.len(), 1, "{:?}", map.regions);
+}
+
 #[test]
 fn pieces_in_a_row_are_a_wall() {
     let pieces: Vec<([f64; 4], Occupancy)> = (0..16)

@@ -1,5 +1,7 @@
 //! The roadmap of a grid: all steps from its regions to it.
 
+use rayon::prelude::*;
+
 use super::graph::{RoadNode, RoadNodeKind, RoadNodeNumber, Roadmap};
 use super::options::RoadmapOptions;
 use super::{connection, region, window};
@@ -29,13 +31,17 @@ impl Roadmap {
                 Some(roadmap.add(RoadNode { kind: RoadNodeKind::Passage(passage as u32), region, position }))
             })
             .collect();
-        let parts: Vec<region::RegionPart> = (0..map.regions.len() as u32)
+        let passage_nodes = roadmap.nodes.len() as u32;
+        let ground = region::Ground { map, field: &field, exits: &exits, passages: &passages, passage_nodes };
+        // Each region by itself, on as many threads as there are; what they add is put together in their order.
+        let roads: Vec<region::RegionRoads> = (0..map.regions.len())
+            .into_par_iter()
             .map(|number| {
-                let region = RegionNumber(number);
-                let ground = region::Ground { map, field: &field, exits: &exits, passages: &passages };
-                region::add_region(&mut roadmap, &ground, region, bounds[region.index()], options)
+                region::RegionRoads::new(&ground, RegionNumber(number as u32), bounds[number], options)
             })
             .collect();
+        let parts: Vec<region::RegionPart> =
+            roads.into_iter().map(|roads| roads.add_to(&mut roadmap, passage_nodes)).collect();
         connection::connect(&mut roadmap, map, &parts, options);
         roadmap
     }

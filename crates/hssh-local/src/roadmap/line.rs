@@ -29,11 +29,11 @@ fn clearance(point: [f64; 2], field: &DistanceField) -> f64 {
     let to_side = |site: Cell| {
         let center = lattice.center(site);
         let beyond = |axis: usize| ((point[axis] - center[axis]).abs() - half).max(0.0);
-        beyond(0).hypot(beyond(1))
+        beyond(0).powi(2) + beyond(1).powi(2)
     };
     let cells = (-1..=1).flat_map(|rows| (-1..=1).map(move |columns| (columns, rows)));
     let sites = cells.filter_map(|(columns, rows)| field.nearest(lattice.step(cell, columns, rows)?));
-    sites.map(to_side).fold(f64::INFINITY, f64::min)
+    sites.map(to_side).fold(f64::INFINITY, f64::min).sqrt()
 }
 
 /// A line with fewer corners that is nowhere farther from the old one than `off`, and no nearer to obstacles than `least`

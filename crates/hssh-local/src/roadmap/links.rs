@@ -1,9 +1,10 @@
 //! Links between the terminals of a region: ways through its cells, without those that others make needless.
 
-use std::cmp::Reverse;
-use std::collections::{BTreeMap, BinaryHeap};
+use std::collections::BTreeMap;
+use std::f64::consts::SQRT_2;
 
 use super::reach::Reach;
+use super::spread::spread;
 use super::window::Window;
 
 /// A way between two terminals.
@@ -18,7 +19,7 @@ pub(super) struct Link {
 
 /// Links all terminals whose parts of the window touch, and leaves out those that are no shorter, by the factor
 /// `detour`, than what is left.
-pub(super) fn links(window: &Window, terminals: &[usize], detour: f64) -> Vec<Link> {
+pub(super) fn links(window: &Window<'_>, terminals: &[usize], detour: f64) -> Vec<Link> {
     let reach = Reach::new(window, terminals);
     let mut meetings: BTreeMap<[usize; 2], (u64, [usize; 2])> = BTreeMap::new();
     for position in 0..window.len() {
@@ -40,58 +41,37 @@ pub(super) fn links(window: &Window, terminals: &[usize], detour: f64) -> Vec<Li
 }
 
 /// The length of a path in cells.
-pub(super) fn length(window: &Window, path: &[usize]) -> f64 {
-    let step = |pair: &[usize]| {
+pub(super) fn length(window: &Window<'_>, path: &[usize]) -> f64 {
+    let is_diagonal = |pair: &&[usize]| {
         let [a, b] = [window.cell(pair[0]), window.cell(pair[1])];
-        f64::from(a.column.abs_diff(b.column)).hypot(f64::from(a.row.abs_diff(b.row)))
+        a.column != b.column && a.row != b.row
     };
-    path.windows(2).map(step).sum()
+    let steps = path.windows(2).filter(|pair| pair[0] != pair[1]).count();
+    let diagonal = path.windows(2).filter(is_diagonal).count();
+    (steps - diagonal) as f64 + diagonal as f64 * SQRT_2
 }
 
 /// The links that are left if, the longest first, each goes that others replace.
 fn needed(mut links: Vec<Link>, terminals: usize, detour: f64) -> Vec<Link> {
     links.sort_by(|a, b| b.length.total_cmp(&a.length).then(a.ends.cmp(&b.ends)));
+    let mut at: Vec<Vec<usize>> = vec![Vec::new(); terminals];
+    for (number, link) in links.iter().enumerate() {
+        link.ends.iter().for_each(|&end| at[end].push(number));
+    }
     let mut is_left = vec![true; links.len()];
-    for at in 0..links.len() {
-        is_left[at] = false;
-        let others = links.iter().zip(&is_left).filter(|&(_, &is_left)| is_left).map(|(link, _)| link);
-        let limit = detour * links[at].length;
-        is_left[at] = !is_within(others, links[at].ends, limit, terminals);
+    for number in 0..links.len() {
+        is_left[number] = false;
+        let limit = detour * links[number].length;
+        let onward = |terminal: usize| {
+            let left = at[terminal].iter().filter(|&&link| is_left[link]).map(|&link| &links[link]);
+            left.map(move |&Link { ends: [a, b], length, .. }| (if a == terminal { b } else { a }, length))
+        };
+        let [from, to] = links[number].ends;
+        let is_replaced = spread(from, limit, onward).any(|(terminal, _)| terminal == to);
+        is_left[number] = !is_replaced;
     }
     let mut is_left = is_left.into_iter();
     links.retain(|_| is_left.next().unwrap_or_default());
     links.sort_by_key(|link| link.ends);
     links
-}
-
-/// Whether links lead from one terminal to another within a length.
-fn is_within<'a>(
-    links: impl Iterator<Item = &'a Link>,
-    [from, to]: [usize; 2],
-    limit: f64,
-    terminals: usize,
-) -> bool {
-    let mut neighbors = vec![Vec::new(); terminals];
-    for Link { ends: [a, b], length, .. } in links {
-        neighbors[*a].push((*b, *length));
-        neighbors[*b].push((*a, *length));
-    }
-    let mut least = vec![f64::INFINITY; terminals];
-    least[from] = 0.0;
-    // Lengths are not negative, so that their bits are in their order.
-    let mut waiting = BinaryHeap::from([Reverse((0_f64.to_bits(), from))]);
-    while let Some(Reverse((bits, terminal))) = waiting.pop() {
-        let here = f64::from_bits(bits);
-        if terminal == to {
-            return true;
-        }
-        for &(near, length) in &neighbors[terminal] {
-            let there = here + length;
-            if there <= limit && there < least[near] {
-                least[near] = there;
-                waiting.push(Reverse((there.to_bits(), near)));
-            }
-        }
-    }
-    false
 }

@@ -12,9 +12,11 @@ mod graph;
 mod line;
 mod links;
 mod network;
+mod numbered;
 mod options;
 mod reach;
 mod region;
+mod spread;
 #[cfg(test)]
 mod tests;
 mod window;

@@ -3,6 +3,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use super::links::{Link, length};
+use super::spread::spread;
 use super::window::Window;
 
 /// The network of a region by positions in its window.
@@ -27,6 +28,11 @@ pub(super) struct Stretch {
 }
 
 impl Stretch {
+    /// The end that is not at a node.
+    fn other_end(&self, node: usize) -> usize {
+        if self.ends[0] == node { self.ends[1] } else { self.ends[0] }
+    }
+
     /// The same way as seen from one of its ends.
     fn from(mut self, node: usize) -> Self {
         if self.ends[0] != node {
@@ -49,7 +55,7 @@ pub(super) struct Pruning {
 }
 
 /// The network of links between terminals, without what does not matter.
-pub(super) fn network(window: &Window, terminals: &[usize], links: &[Link], pruning: Pruning) -> Network {
+pub(super) fn network(window: &Window<'_>, terminals: &[usize], links: &[Link], pruning: Pruning) -> Network {
     let mut neighbors: BTreeMap<usize, BTreeSet<usize>> = BTreeMap::new();
     for pair in links.iter().flat_map(|link| link.path.windows(2)).filter(|pair| pair[0] != pair[1]) {
         neighbors.entry(pair[0]).or_default().insert(pair[1]);
@@ -91,25 +97,30 @@ pub(super) fn network(window: &Window, terminals: &[usize], links: &[Link], prun
 }
 
 impl Network {
+    /// How many ways end at each node.
+    fn degrees(&self) -> Vec<usize> {
+        let mut degrees = vec![0; self.nodes.len()];
+        self.ways.iter().flat_map(|way| way.ends).for_each(|end| degrees[end] += 1);
+        degrees
+    }
+
     /// Takes out a short way from a branch to nowhere; whether there was any.
     fn cut_spur(&mut self, Pruning { fixed, arm, .. }: Pruning) -> bool {
-        let degree =
-            |node: usize| self.ways.iter().flat_map(|way| way.ends).filter(|&end| end == node).count();
+        let degrees = self.degrees();
         let is_spur =
-            |way: &Stretch| way.length < arm && way.ends.iter().any(|&end| end >= fixed && degree(end) == 1);
+            |way: &Stretch| way.length < arm && way.ends.iter().any(|&end| end >= fixed && degrees[end] == 1);
         let spur = self.ways.iter().position(is_spur);
         spur.map(|spur| self.ways.swap_remove(spur)).is_some()
     }
 
     /// Makes one way of two that meet where nothing else does; whether there were any.
     fn dissolve(&mut self, Pruning { fixed, .. }: Pruning) -> bool {
-        for node in fixed..self.nodes.len() {
+        let degrees = self.degrees();
+        for node in (fixed..self.nodes.len()).filter(|&node| degrees[node] == 2) {
             let own: Vec<usize> =
                 (0..self.ways.len()).filter(|&way| self.ways[way].ends.contains(&node)).collect();
+            // A loop has both its ends at one node.
             let [first, second] = own[..] else { continue };
-            if [first, second].iter().any(|&way| self.ways[way].ends == [node, node]) {
-                continue;
-            }
             let after = self.ways.swap_remove(second).from(node);
             let before = self.ways.swap_remove(first).from(node);
             let mut path: Vec<usize> = before.path.into_iter().rev().collect();
@@ -150,48 +161,27 @@ impl Network {
         self.ways_at[node].iter().map(|&way| &self.ways[way])
     }
 
-    /// How long the ways are to each node from the nearest of some, and from which; without going through `barred`.
-    pub(super) fn nearest(&self, starts: &[usize], barred: Option<usize>) -> Vec<Option<(f64, usize)>> {
-        let mut nearest: Vec<Option<(f64, usize)>> = vec![None; self.nodes.len()];
-        let mut waiting: BTreeSet<(u64, usize)> = BTreeSet::new();
-        for (number, &start) in starts.iter().enumerate() {
-            nearest[start].get_or_insert((0.0, number));
-            waiting.insert((0, start));
-        }
-        while let Some((bits, node)) = waiting.pop_first() {
-            let Some((here, source)) = nearest[node].filter(|&(here, _)| here.to_bits() == bits) else {
-                continue;
-            };
-            for way in self.ways_at(node) {
-                let other = if way.ends[0] == node { way.ends[1] } else { way.ends[0] };
-                let there = here + way.length;
-                if Some(other) != barred && nearest[other].is_none_or(|(known, _)| there < known) {
-                    nearest[other] = Some((there, source));
-                    waiting.insert((there.to_bits(), other));
-                }
-            }
-        }
-        nearest
+    /// The nodes within so many cells of one, each with how far it is, on ways that do not lead through `barred`.
+    fn near(&self, start: usize, within: f64, barred: Option<usize>) -> impl Iterator<Item = (usize, f64)> {
+        spread(start, within, move |node| {
+            let onward = self.ways_at(node).map(move |way| (way.other_end(node), way.length));
+            onward.filter(move |&(other, _)| Some(other) != barred)
+        })
     }
 
     /// The nodes from which at least three ways lead on by `arm` cells, none nearer to another than that.
     pub(super) fn junctions(&self, arm: f64) -> Vec<usize> {
-        let mut junctions: Vec<usize> = Vec::new();
+        let mut is_junction = vec![false; self.nodes.len()];
         for node in 0..self.nodes.len() {
             let leads_on = |way: &&Stretch| {
-                let other = if way.ends[0] == node { way.ends[1] } else { way.ends[0] };
-                let beyond = self.nearest(&[other], Some(node));
-                let farthest = beyond.iter().flatten().map(|&(far, _)| far).fold(0.0, f64::max);
-                way.length + farthest >= arm
+                let mut beyond = self.near(way.other_end(node), f64::INFINITY, Some(node));
+                beyond.any(|(_, far)| way.length + far >= arm)
             };
             if self.ways_at[node].len() > 2 && self.ways_at(node).filter(leads_on).count() > 2 {
-                let from_here = self.nearest(&[node], None);
-                let is_near = |other: &usize| from_here[*other].is_some_and(|(far, _)| far < arm);
-                if !junctions.iter().any(is_near) {
-                    junctions.push(node);
-                }
+                let is_near = |(other, far): (usize, f64)| is_junction[other] && far < arm;
+                is_junction[node] = !self.near(node, arm, None).any(is_near);
             }
         }
-        junctions
+        (0..self.nodes.len()).filter(|&node| is_junction[node]).collect()
     }
 }

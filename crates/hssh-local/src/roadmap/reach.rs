@@ -17,7 +17,7 @@ pub(super) struct Reach {
 
 impl Reach {
     /// From some positions of a window.
-    pub(super) fn new(window: &Window, starts: &[usize]) -> Self {
+    pub(super) fn new(window: &Window<'_>, starts: &[usize]) -> Self {
         let mut reach = Reach {
             cost: vec![UNREACHED; window.len()],
             source: vec![UNREACHED; window.len()],

@@ -53,6 +53,22 @@ fn a_ring_with_a_bar_has_two_junctions() {
     assert_eq!(ends, [1, 3, 4]);
 }
 
+/// Rooms in a row, each with a door to a corridor.
+#[test]
+fn any_number_of_threads_draws_the_same_roadmap() {
+    let rooms = (0..12)
+        .flat_map(|room| [[5 + 50 * room, 30, 50 + 50 * room, 80], [20 + 50 * room, 25, 29 + 50 * room, 30]]);
+    let free: Vec<[u32; 4]> = rooms.chain([[5, 5, 600, 25]]).collect();
+    let grid = floor(610, 90, &free);
+    let drawn = |threads: usize| {
+        let crew = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+        crew.install(|| roadmap(&grid).1)
+    };
+    let [one, four] = [1, 4].map(drawn);
+    assert_eq!((one.nodes, one.ways), (four.nodes, four.ways));
+    assert_eq!((one.places, one.connections), (four.places, four.connections));
+}
+
 #[test]
 fn a_closed_room_is_a_place_without_a_star() {
     let (_, roadmap) = roadmap(&floor(100, 120, &[[10, 10, 90, 110]]));

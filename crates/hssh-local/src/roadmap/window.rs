@@ -1,8 +1,9 @@
 //! The cells of one region in a window of their own, as far as a robot fits into them.
 
+use super::numbered::Numbered;
 use super::options::RoadmapOptions;
 use crate::distance::DistanceField;
-use crate::grid::Cell;
+use crate::grid::{Cell, Lattice};
 use crate::region::{RegionMap, RegionNumber};
 
 /// The least and the greatest column and row of the cells of a region.
@@ -28,115 +29,130 @@ const DIAGONAL: f64 = 7.0;
 /// How many times that a step costs at most.
 const DEAREST: f64 = 12.0;
 
-/// A window on one region, with a frame of one cell where no robot fits in.
-pub(super) struct Window {
-    /// The cell at the first position within the frame.
-    low: Cell,
-    width: usize,
-    /// The clearance of each cell that a robot fits into, in metres; 0 of others.
-    clearance: Vec<f32>,
-    /// What a step costs to each cell that a robot fits into, straight on and across a corner.
+/// A window on one region: the cells that a robot fits into, each at a position, in the order of rows and columns.
+pub(super) struct Window<'a> {
+    field: &'a DistanceField,
+    frame: Frame,
+    fitting: Numbered,
+    /// What a step costs to each position, straight on and across a corner.
     costs: Vec<[u8; 2]>,
-    /// Which cells are in the region, and not beyond one of its passages.
+    /// Which positions are in the region, and not beyond one of its passages.
     is_own: Vec<bool>,
 }
 
-impl Window {
-    /// The window on a region: its cells, and those within `beyond` metres of the points where it leads on.
-    pub(super) fn new(
-        map: &RegionMap,
-        region: RegionNumber,
-        [low, high]: Bounds,
-        field: &DistanceField,
-        exits: &[Cell],
-        options: &RoadmapOptions,
-    ) -> Self {
-        let lattice = map.lattice();
-        let beyond = (2.0 * options.radius / lattice.resolution()).ceil() as u32 + 1;
+/// The clearance of a cell in metres, a large number where nothing limits it.
+fn clearance(cell: Cell, field: &DistanceField) -> f32 {
+    field.clearance(cell).min(1e6) as f32
+}
+
+/// The rectangle of a window, and around it one more cell on each side, where no robot fits in.
+struct Frame {
+    low: Cell,
+    high: Cell,
+    /// Cells in a row.
+    width: usize,
+}
+
+impl Frame {
+    /// Around what is between two cells, and so many cells more, as far as they are on the lattice.
+    fn around([low, high]: Bounds, beyond: u32, lattice: &Lattice) -> Self {
         let low = Cell { column: low.column.saturating_sub(beyond), row: low.row.saturating_sub(beyond) };
         let high = Cell {
             column: (high.column + beyond).min(lattice.width() - 1),
             row: (high.row + beyond).min(lattice.height() - 1),
         };
-        let (width, height) = ((high.column - low.column) as usize + 3, (high.row - low.row) as usize + 3);
-        let len = width * height;
-        let (clearance, costs, is_own) = (vec![0.0; len], vec![[0; 2]; len], vec![false; len]);
-        let mut window = Window { low, width, clearance, costs, is_own };
-        let look = |window: &mut Window, cell: Cell, position: usize| {
-            let clearance = field.clearance(cell).min(1e6);
-            if clearance >= options.radius {
-                let clearance = clearance as f32;
-                let dearness = (options.comfort / f64::from(clearance)).clamp(1.0, DEAREST);
-                window.costs[position] = [STRAIGHT, DIAGONAL].map(|step| (step * dearness).round() as u8);
-                window.clearance[position] = clearance;
-            }
-        };
-        for row in low.row..=high.row {
-            for column in low.column..=high.column {
-                let cell = Cell { column, row };
-                if map.region_of(cell) == Some(region) {
-                    let position = window.position(cell);
-                    look(&mut window, cell, position);
-                    window.is_own[position] = true;
-                }
-            }
-        }
-        for exit in exits {
-            for row in exit.row.saturating_sub(beyond)..=exit.row + beyond {
-                for column in exit.column.saturating_sub(beyond)..=exit.column + beyond {
-                    let cell = Cell { column, row };
-                    if window.contains(cell) {
-                        let position = window.position(cell);
-                        look(&mut window, cell, position);
-                    }
-                }
-            }
-        }
-        window
+        Frame { low, high, width: (high.column - low.column) as usize + 3 }
+    }
+
+    /// How many cells there are.
+    fn len(&self) -> usize {
+        self.width * ((self.high.row - self.low.row) as usize + 3)
+    }
+
+    /// The cells of the rectangle.
+    fn cells(&self) -> impl Iterator<Item = Cell> + use<> {
+        let (low, high) = (self.low, self.high);
+        (low.row..=high.row)
+            .flat_map(move |row| (low.column..=high.column).map(move |column| Cell { column, row }))
     }
 
     fn contains(&self, cell: Cell) -> bool {
-        let (column, row) = (cell.column.wrapping_sub(self.low.column), cell.row.wrapping_sub(self.low.row));
-        (column as usize) < self.width - 2 && (row as usize) < self.len() / self.width - 2
+        (self.low.column..=self.high.column).contains(&cell.column)
+            && (self.low.row..=self.high.row).contains(&cell.row)
     }
 
-    /// The position of a cell in the window; it must be in it.
-    pub(super) fn position(&self, cell: Cell) -> usize {
+    /// The index of a cell of the rectangle.
+    fn index(&self, cell: Cell) -> usize {
         (cell.row - self.low.row + 1) as usize * self.width + (cell.column - self.low.column + 1) as usize
     }
 
-    /// The cell at a position within the frame.
-    pub(super) fn cell(&self, position: usize) -> Cell {
+    /// The cell of the rectangle with an index.
+    fn cell(&self, index: usize) -> Cell {
         Cell {
-            column: self.low.column + (position % self.width) as u32 - 1,
-            row: self.low.row + (position / self.width) as u32 - 1,
+            column: self.low.column + (index % self.width) as u32 - 1,
+            row: self.low.row + (index / self.width) as u32 - 1,
         }
+    }
+}
+
+impl<'a> Window<'a> {
+    /// The window on a region: its cells, and those within `beyond` metres of the points where it leads on.
+    pub(super) fn new(
+        map: &RegionMap,
+        region: RegionNumber,
+        bounds: Bounds,
+        field: &'a DistanceField,
+        exits: &[Cell],
+        options: &RoadmapOptions,
+    ) -> Self {
+        let lattice = map.lattice();
+        let beyond = (2.0 * options.radius / lattice.resolution()).ceil() as u32 + 1;
+        let frame = Frame::around(bounds, beyond, lattice);
+        let fits = |cell: &Cell| field.clearance(*cell) >= options.radius;
+        let is_own = |cell: Cell| map.region_of(cell) == Some(region);
+        let fitting = Numbered::new(frame.width, frame.len(), |insert| {
+            let own = frame.cells().filter(|&cell| is_own(cell));
+            let near = exits.iter().flat_map(|&exit| Frame::around([exit; 2], beyond, lattice).cells());
+            let near = near.filter(|&cell| frame.contains(cell));
+            own.chain(near).filter(fits).for_each(|cell| insert(frame.index(cell)));
+        });
+        let cells = || fitting.members().map(|index| frame.cell(index));
+        let costs = |cell: Cell| {
+            let dearness = (options.comfort / f64::from(clearance(cell, field))).clamp(1.0, DEAREST);
+            [STRAIGHT, DIAGONAL].map(|step| (step * dearness).round() as u8)
+        };
+        let (costs, is_own) = (cells().map(costs).collect(), cells().map(is_own).collect());
+        Window { field, frame, fitting, costs, is_own }
+    }
+
+    /// The position of a cell of the region, or near to where it leads on, that a robot fits into.
+    pub(super) fn position(&self, cell: Cell) -> Option<usize> {
+        if self.frame.contains(cell) { self.fitting.number(self.frame.index(cell)) } else { None }
+    }
+
+    /// The cell at a position.
+    pub(super) fn cell(&self, position: usize) -> Cell {
+        self.frame.cell(self.fitting.member(position))
+    }
+
+    /// The clearance at a position, in metres.
+    fn clearance(&self, position: usize) -> f32 {
+        clearance(self.cell(position), self.field)
     }
 
     /// How many positions there are.
     pub(super) fn len(&self) -> usize {
-        self.clearance.len()
+        self.fitting.len()
     }
 
-    /// The clearance at a position where a robot fits in, else 0.
-    pub(super) fn clearance(&self, position: usize) -> f32 {
-        self.clearance[position]
+    /// The positions around one, row by row.
+    pub(super) fn around(&self, position: usize) -> impl Iterator<Item = usize> + use<> {
+        self.fitting.around(position)
     }
 
-    /// The eight positions around one at which a robot fits in; it must be within the frame.
-    pub(super) fn around(&self, position: usize) -> impl Iterator<Item = usize> {
-        let (below, above) = (position - self.width, position + self.width);
-        let around = [below - 1, below, below + 1, position - 1, position + 1, above - 1, above, above + 1];
-        around.into_iter().filter(|&near| self.clearance[near] > 0.0)
-    }
-
-    /// The same, each with the cost of the step there.
+    /// The same, each with the cost of the step there; first those straight on.
     pub(super) fn steps(&self, position: usize) -> impl Iterator<Item = (usize, u32)> {
-        let (below, above) = (position - self.width, position + self.width);
-        let straight = [below, position - 1, position + 1, above].map(|near| (near, 0));
-        let diagonal = [below - 1, below + 1, above - 1, above + 1].map(|near| (near, 1));
-        let steps = straight.into_iter().chain(diagonal);
-        steps.map(|(near, kind)| (near, u32::from(self.costs[near][kind]))).filter(|&(_, cost)| cost > 0)
+        self.fitting.beside(position).map(|(near, kind)| (near, u32::from(self.costs[near][kind])))
     }
 
     /// Positions in the region as wide as `least` metres, so many that each such position is within `spacing` cells of one of them or
@@ -149,11 +165,11 @@ impl Window {
             count += 1;
             self.cover(position, spacing, count, &mut covered);
         }
-        let mut wide: Vec<usize> =
-            (0..self.len()).filter(|&at| self.is_own[at] && self.clearance[at] >= least).collect();
-        wide.sort_by(|&a, &b| self.clearance[b].total_cmp(&self.clearance[a]).then(a.cmp(&b)));
+        let wide = (0..self.len()).filter(|&at| self.is_own[at]).map(|at| (self.clearance(at), at as u32));
+        let mut wide: Vec<(f32, u32)> = wide.filter(|&(clearance, _)| clearance >= least).collect();
+        wide.sort_unstable_by(|a, b| b.0.total_cmp(&a.0).then(a.1.cmp(&b.1)));
         let mut found = Vec::new();
-        for position in wide {
+        for position in wide.into_iter().map(|(_, position)| position as usize) {
             if covered[position] == 0 {
                 count += 1;
                 self.cover(position, spacing, count, &mut covered);
@@ -184,41 +200,48 @@ impl Window {
     pub(super) fn middle(&self, comfort: f64) -> Option<usize> {
         let largest = self.largest_part()?;
         let count = largest.len() as f64;
+        let cell = |position: u32| {
+            let cell = self.cell(position as usize);
+            [f64::from(cell.column), f64::from(cell.row)]
+        };
         let sum = largest
             .iter()
-            .map(|&position| self.cell(position))
-            .fold([0.0, 0.0], |sum, cell| [sum[0] + f64::from(cell.column), sum[1] + f64::from(cell.row)]);
+            .map(|&position| cell(position))
+            .fold([0.0, 0.0], |sum, cell| [sum[0] + cell[0], sum[1] + cell[1]]);
         let mean = sum.map(|sum| sum / count);
-        let off = |position: usize| {
-            let cell = self.cell(position);
-            (f64::from(cell.column) - mean[0]).hypot(f64::from(cell.row) - mean[1])
+        let clearance = |position: u32| f64::from(self.clearance(position as usize)).min(comfort);
+        let widest = largest.iter().map(|&position| clearance(position)).fold(0.0, f64::max);
+        let off = |position: u32| {
+            let [column, row] = cell(position);
+            (column - mean[0]).powi(2) + (row - mean[1]).powi(2)
         };
-        let clearance = |position: usize| f64::from(self.clearance(position)).min(comfort);
-        largest.into_iter().max_by(|&a, &b| {
-            clearance(a).total_cmp(&clearance(b)).then_with(|| off(b).total_cmp(&off(a))).then(b.cmp(&a))
-        })
+        let widest = largest.into_iter().filter(|&position| clearance(position) >= widest);
+        let nearest = widest
+            .map(|position| (off(position), position))
+            .min_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
+        nearest.map(|(_, position)| position as usize)
     }
 
     /// Of the connected part with the most cells of the region, these.
-    fn largest_part(&self) -> Option<Vec<usize>> {
+    fn largest_part(&self) -> Option<Vec<u32>> {
         let mut is_seen = vec![false; self.len()];
-        let mut largest: Option<Vec<usize>> = None;
+        let mut largest: Option<Vec<u32>> = None;
         for start in 0..self.len() {
-            if self.clearance[start] == 0.0 || is_seen[start] {
+            if is_seen[start] {
                 continue;
             }
             is_seen[start] = true;
-            let mut part = vec![start];
+            let mut part = vec![start as u32];
             let mut at = 0;
             while at < part.len() {
-                for near in self.around(part[at]) {
+                for near in self.around(part[at] as usize) {
                     if !std::mem::replace(&mut is_seen[near], true) {
-                        part.push(near);
+                        part.push(near as u32);
                     }
                 }
                 at += 1;
             }
-            part.retain(|&position| self.is_own[position]);
+            part.retain(|&position| self.is_own[position as usize]);
             if largest.as_ref().is_none_or(|largest| part.len() >= largest.len()) {
                 largest = Some(part);
             }
