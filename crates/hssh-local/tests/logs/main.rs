@@ -3,6 +3,7 @@
 
 mod carmen;
 mod closing;
+mod doubts;
 mod local_map;
 mod matching;
 mod mutations;
