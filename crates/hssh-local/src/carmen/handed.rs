@@ -1,7 +1,5 @@
 //! Whether the odometry turns to the side to which its heading turns: where y is mirrored, or headings count clockwise, it does not.
 
-use std::f64::consts::PI;
-
 use super::error::LogWarning;
 use super::raw::{Moment, RawLog};
 
@@ -30,7 +28,7 @@ impl RawLog {
             let turn = one.pose.between(other.pose).theta;
             let (way, heading) = (step.y.atan2(step.x), one.pose.theta + 0.5 * turn);
             for (sum, angle) in sums.iter_mut().zip([way - heading, way + heading]) {
-                let (sin, cos) = angle.rem_euclid(2.0 * PI).sin_cos();
+                let (sin, cos) = f64::sin_cos(angle);
                 *sum = [sum[0] + cos, sum[1] + sin];
             }
             steps += 1;

@@ -17,7 +17,7 @@ pub(super) const CONFIRMING: f64 = 8.0;
 const LEAST_TRAVEL: f64 = 15.0;
 /// A closure that counts less than this in the end is contradicted.
 pub(super) const BELIEVED: f64 = 0.5;
-/// A return to where the robot was hardly expected is confirmed if it is one of so many.
+/// A return to where the robot was hardly expected or known is confirmed if it is one of so many.
 const CONFIRMED: usize = 4;
 /// Where the robot is known up to this standard deviation, in metres, it is where it seems to be.
 const WELL_KNOWN: f64 = 2.5;
@@ -36,7 +36,7 @@ pub struct Evidence {
     /// How many times the robot seems to be back and the laser does not show it.
     pub unconfirmed: usize,
     /// How many times it seems to be back after so long a way that it might as well be elsewhere, and the laser does
-    /// not show it; or may be back, as far as is known; or is back, as the laser shows, where it was hardly expected.
+    /// not show it; or may be back, as far as is known; or is back, as the laser shows, where it was hardly expected, or known.
     pub adrift: usize,
     /// On how many stretches the robot was lost: scans lie on nothing that was seen before, wherever they are put. A log
     /// without odometry counts as one, and so does one of a laser that sees too little.
