@@ -393,11 +393,18 @@ impl<'a> Closing<'a> {
         for (query, alike) in self.alike.iter().enumerate().filter(|(_, alike)| !alike.is_empty()) {
             let known = self.ways.from(query, pose);
             for found in alike {
-                let off = (told(found, pose).translation() - pose(query).translation()).norm();
+                let mut apart = told(found, pose).translation() - pose(query).translation();
+                let across = known[found.reference].across;
+                // How far along a corridor the robot is, a match that can be slid does not tell: that is known, or it is not.
+                if let Some(axis) = found.slide.filter(|_| across <= self.options.well_known) {
+                    let axis = pose(found.reference).rotation() * axis;
+                    apart -= axis * axis.dot(&apart);
+                }
+                let off = apart.norm();
                 let scans = (scan(found.reference), scan(query));
                 if off <= THERE {
                     pairs.expected.push(scans);
-                } else if off < POSSIBLE * known[found.reference].across {
+                } else if off < POSSIBLE * across {
                     pairs.possible.push(scans);
                 }
             }

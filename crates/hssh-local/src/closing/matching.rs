@@ -112,7 +112,8 @@ pub(super) fn refined(
     let slide = slide(cloud, surfaces, fine.mean, options.least_crossing);
     let rotation = fine.mean.rotation();
     let lies = |surface: &&SurfacePoint| {
-        cloud.nearest(fine.mean.translation() + rotation * surface.position, ON_WALL).is_some()
+        let facing = surface.normal.map(|normal| rotation * normal);
+        cloud.nearest(fine.mean.translation() + rotation * surface.position, facing, ON_WALL).is_some()
     };
     let covariance = as_shown(&fine.covariance, slide, options.fine_floor)?;
     (surfaces.iter().filter(lies).count() >= LEAST).then_some(UncertainPose { mean: fine.mean, covariance })
@@ -131,8 +132,8 @@ fn slide(
     for surface in surfaces {
         let hit = origin + rotation * surface.position;
         let Some(own) = surface.normal.map(|normal| rotation * normal) else { continue };
-        let nearest = cloud.nearest(hit, ON_WALL).and_then(|point| point.normal);
-        if nearest.is_some_and(|normal| normal.dot(&own).abs() > FACING) {
+        let nearest = cloud.nearest(hit, Some(own), ON_WALL).and_then(|point| point.normal);
+        if nearest.is_some_and(|normal| normal.dot(&own) > FACING) {
             scatter += own * own.transpose();
         }
     }

@@ -84,9 +84,10 @@ fn facing(
     rotation: nalgebra::Matrix2<f64>,
     reach: f64,
 ) -> Option<(Vector2<f64>, Vector2<f64>)> {
-    let nearest = cloud.nearest(hit, reach)?;
+    let own = surface.normal.map(|own| rotation * own);
+    let nearest = cloud.nearest(hit, own, reach)?;
     let normal = nearest.normal?;
-    let agrees = surface.normal.is_none_or(|own| (rotation * own).dot(&normal).abs() > FACING);
+    let agrees = own.is_none_or(|own| own.dot(&normal) > FACING);
     agrees.then_some((nearest.position, normal))
 }
 

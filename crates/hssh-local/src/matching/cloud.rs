@@ -27,7 +27,8 @@ const BUCKET: f64 = 0.5;
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub(crate) struct SurfacePoint {
     pub(crate) position: Vector2<f64>,
-    /// Of unit length; `None` where too few hits are near to tell.
+    /// Of unit length, towards where it was seen from: a jamb is another surface than the one across its doorway, which is seen from the
+    /// other side only. `None` where too few hits are near to tell.
     pub(crate) normal: Option<Vector2<f64>>,
 }
 
@@ -42,7 +43,8 @@ pub(crate) fn surfaces(scan: &Scan, reach: f64, spacing: f64) -> Vec<SurfacePoin
         let range = position.norm();
         let near = neighbors(&hits, index, GAP.max(GAP_PER_RANGE * range));
         let normal = normal(&near, f64::INFINITY)
-            .or_else(|| normal(&neighbors(&hits, index, GRAZING_GAP_PER_RANGE * range), STRAIGHT));
+            .or_else(|| normal(&neighbors(&hits, index, GRAZING_GAP_PER_RANGE * range), STRAIGHT))
+            .map(|normal| if normal.dot(&position) > 0.0 { -normal } else { normal });
         points.push(SurfacePoint { position, normal });
     }
     points
@@ -66,7 +68,7 @@ fn neighbors(hits: &[(usize, Vector2<f64>)], index: usize, gap: f64) -> Vec<Vect
     hits[first..=last].iter().map(|hit| hit.1).collect()
 }
 
-/// The direction across the line through points, if they lie on a line, off by `straight` metres at most.
+/// A direction across the line through points, one of two, if they lie on a line, off by `straight` metres at most.
 fn normal(points: &[Vector2<f64>], straight: f64) -> Option<Vector2<f64>> {
     if points.len() < 4 {
         return None;
@@ -93,8 +95,8 @@ pub(crate) fn filled(surfaces: &[SurfacePoint]) -> Vec<SurfacePoint> {
         let (Some(one), Some(other)) = (pair[0].normal, pair[1].normal) else { continue };
         let way = pair[1].position - pair[0].position;
         let length = way.norm();
-        let is_wall = one.dot(&other).abs() > PARALLEL
-            && one.dot(&way).abs().max(other.dot(&way).abs()) < 2.0 * STRAIGHT;
+        let is_wall =
+            one.dot(&other) > PARALLEL && one.dot(&way).abs().max(other.dot(&way).abs()) < 2.0 * STRAIGHT;
         if is_wall && length < FILLING.1 {
             let steps = (length / FILLING.0).floor() as usize;
             all.extend((1..steps).map(|step| SurfacePoint {
@@ -115,14 +117,14 @@ pub(crate) struct Cloud {
 }
 
 impl Cloud {
-    /// Adds the surfaces seen from a pose of this frame, except where there are points within `spacing`
+    /// Adds the surfaces seen from a pose of this frame, except where there are points of the same side within `spacing`
     /// metres already.
     pub(crate) fn insert(&mut self, pose: Pose, surfaces: &[SurfacePoint], spacing: f64) {
         let rotation = pose.rotation();
         for surface in surfaces {
             let position = pose.translation() + rotation * surface.position;
             let normal = surface.normal.map(|normal| rotation * normal);
-            if self.nearest(position, spacing).is_some() {
+            if self.nearest(position, normal, spacing).is_some() {
                 continue;
             }
             self.buckets.entry(bucket(position)).or_default().push(self.points.len() as u32);
@@ -135,8 +137,14 @@ impl Cloud {
         &self.points
     }
 
-    /// The nearest point with a normal within `reach` metres, which is at most a bucket's side.
-    pub(crate) fn nearest(&self, position: Vector2<f64>, reach: f64) -> Option<&SurfacePoint> {
+    /// The nearest point with a normal within `reach` metres, which is at most a bucket's side; of a surface that is seen from the same
+    /// side as one of that normal, if there is one.
+    pub(crate) fn nearest(
+        &self,
+        position: Vector2<f64>,
+        facing: Option<Vector2<f64>>,
+        reach: f64,
+    ) -> Option<&SurfacePoint> {
         let (column, row) = bucket(position);
         let mut best = None;
         let mut least = reach * reach;
@@ -145,7 +153,8 @@ impl Cloud {
                 for &index in self.buckets.get(&(column + dx, row + dy)).into_iter().flatten() {
                     let point = &self.points[index as usize];
                     let distance = (point.position - position).norm_squared();
-                    if distance < least && point.normal.is_some() {
+                    let is_seen_so = |normal: Vector2<f64>| facing.is_none_or(|own| own.dot(&normal) > 0.0);
+                    if distance < least && point.normal.is_some_and(is_seen_so) {
                         (best, least) = (Some(point), distance);
                     }
                 }
@@ -157,4 +166,44 @@ impl Cloud {
 
 fn bucket(position: Vector2<f64>) -> (i32, i32) {
     ((position.x / BUCKET).floor() as i32, (position.y / BUCKET).floor() as i32)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A panel seen from both sides is two surfaces, as thin as it may be.
+    #[test]
+    fn what_is_seen_from_the_other_side_is_another_surface() {
+        let panel: Vec<SurfacePoint> = (-10..=10)
+            .map(|k| SurfacePoint {
+                position: vector![2.0, 0.1 * f64::from(k)],
+                normal: Some(vector![-1.0, 0.0]),
+            })
+            .collect();
+        let mut cloud = Cloud::default();
+        cloud.insert(Pose::IDENTITY, &panel, 0.08);
+        let facing = |x: f64| cloud.nearest(vector![2.03, 0.0], Some(vector![x, 0.0]), 0.5);
+        assert!(facing(-1.0).is_some() && facing(1.0).is_none());
+        assert!(cloud.nearest(vector![2.03, 0.0], None, 0.5).is_some());
+        // From behind it, 4 m ahead and turned around, the same panel, 3 cm thick.
+        let behind: Vec<SurfacePoint> = panel
+            .iter()
+            .map(|one| SurfacePoint { position: one.position - vector![0.03, 0.0], ..*one })
+            .collect();
+        cloud.insert(Pose::new(4.0, 0.0, std::f64::consts::PI), &behind, 0.08);
+        assert_eq!(cloud.points().len(), 2 * panel.len());
+        // Again from there, nothing is new.
+        cloud.insert(Pose::new(4.0, 0.0, std::f64::consts::PI), &behind, 0.08);
+        assert_eq!(cloud.points().len(), 2 * panel.len());
+    }
+
+    #[test]
+    fn surfaces_face_who_sees_them() {
+        let scan = Scan::of_half_turn((0..181).map(|beam| 3.0 + f64::from(beam % 60) / 100.0).collect());
+        let seen = surfaces(&scan, 10.0, 0.0);
+        let facing = seen.iter().filter_map(|one| Some((one.normal?, one.position)));
+        assert!(facing.clone().count() > 100);
+        assert!(facing.into_iter().all(|(normal, position)| normal.dot(&position) <= 0.0));
+    }
 }

@@ -100,7 +100,11 @@ pub(super) fn evidence(track: &Track, closed: &ClosedTrack) -> (Evidence, Vec<Su
         evidence.adrift += 1;
         warnings.push(SurveyWarning::Possible { scan: closure.later + 1, earlier: closure.earlier + 1 });
     }
-    for closure in stretches(track, &contradicted).iter().filter_map(|stretch| stretch.first()) {
+    for closure in
+        stretches(track, contradicted.iter().filter(|closure| !is_back_there(track, &believed, closure)))
+            .iter()
+            .filter_map(|stretch| stretch.first())
+    {
         evidence.contradicted += 1;
         warnings.push(SurveyWarning::Contradicted { scan: closure.later + 1, earlier: closure.earlier + 1 });
     }
@@ -114,6 +118,16 @@ pub(super) fn evidence(track: &Track, closed: &ClosedTrack) -> (Evidence, Vec<Su
         warnings.push(SurveyWarning::Possible { scan: later + 1, earlier: earlier + 1 });
     }
     (evidence, warnings)
+}
+
+/// Whether other closures show that the robot was back on that stretch: then it is in doubt how exactly, not whether.
+fn is_back_there(track: &Track, believed: &[Closure], closure: &Closure) -> bool {
+    let is_near = |one: usize, other: usize| {
+        (track.scans[one].travelled - track.scans[other].travelled).abs() < CONFIRMING
+    };
+    believed
+        .iter()
+        .any(|other| is_near(other.earlier, closure.earlier) && is_near(other.later, closure.later))
 }
 
 /// The returns to where the robot was hardly expected, or after so long a way that it might have been elsewhere: they may as well be to
@@ -393,7 +407,11 @@ mod tests {
         let expected =
             [(190, 20), (110, 30)].map(|(scan, earlier)| SurveyWarning::Contradicted { scan, earlier });
         assert_eq!(warnings, expected);
-        // It confirms nothing either.
+        // What is off by half a metre where other closures say that the robot was back contradicts no return.
+        let mut inexact = again(2, 60);
+        inexact.push(closure((12.0, 132.5), 0.01));
+        assert_eq!(counts(evidence(&around(), &closed(inexact)).0), (1, 0, 0));
+        // What is contradicted confirms nothing either.
         let doubtful: Vec<Closure> =
             again(2, 60).into_iter().map(|closure| Closure { weight: 0.1, ..closure }).collect();
         let (found, _) = evidence(&around(), &closed(doubtful));

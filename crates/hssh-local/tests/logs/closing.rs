@@ -186,6 +186,28 @@ fn the_opposite_direction_closes_too() {
     assert!(opposite > 10, "{opposite} of {:?}", closed.closed.closures);
 }
 
+/// Doorways as wide as one's shift of a corridor: coming back one sees their other jambs, which must not be taken for those seen before.
+#[test]
+fn the_jambs_seen_on_the_way_back_are_others() {
+    let doors =
+        [2.5, 6.0, 9.25, 13.0, 15.5, 19.0, 23.5, 27.0, 30.25, 34.0, 38.5, 42.0, 45.25, 49.0, 52.5, 55.0];
+    let door = |(index, &x): (usize, &f64)| -> Space {
+        let out = if index % 3 == 0 { -1.25 } else { 1.25 };
+        [[x, f64::min(out, 0.0)], [x + 1.0, f64::max(out, 0.0)]]
+    };
+    let mut spaces = vec![[[-1.0, -1.0], [60.0, 1.0]], [[58.0, -1.0], [60.0, 8.0]]];
+    spaces.extend(doors.iter().enumerate().map(door));
+    let way = [[0.0, 0.0], [59.0, 0.0], [59.0, 6.0], [59.0, 0.0], [1.0, 0.0]];
+    let closed = Closed::new(&spaces, &way, 0.002, matched);
+    let opposite = closed.closed.closures.iter().filter(|one| closed.between(one).theta.abs() > 3.0).count();
+    assert!(opposite > 5, "{opposite}");
+    for closure in &closed.closed.closures {
+        assert!(closed.sigmas(closure) < 5.0, "{closure:?} is off by {:?}", closed.off(closure));
+    }
+    let after = closed.error(closed.closed.poses());
+    assert!(after < 0.25, "{after} m");
+}
+
 /// Where niches are along corridors that look alike, and how wide.
 const ALIKE: [(f64, f64); 4] = [(4.0, 1.0), (7.0, 2.0), (11.0, 1.25), (15.0, 1.5)];
 
