@@ -22,13 +22,14 @@ pub(super) struct Ground {
 type Plan = fn(&mut ChaCha8Rng) -> Ground;
 
 /// The kinds of grounds, and how one is made.
-pub(super) const KINDS: [(&str, Plan); 6] = [
+pub(super) const KINDS: [(&str, Plan); 7] = [
     ("twins", twins),
     ("twins, back", twins_and_back),
     ("ring", ring),
     ("blocks", blocks),
     ("atria", atria),
     ("campus", campus),
+    ("institute", institute),
 ];
 
 /// Half the width of a corridor.
@@ -165,6 +166,77 @@ fn blocks(random: &mut ChaCha8Rng) -> Ground {
         way.push(at(here.0, here.1));
     }
     built(&spaces, Vec::new(), way)
+}
+
+/// Long corridors around large blocks, of which no two are alike: doorways come as they come, shallow or deep, some with a room behind.
+/// The way goes around one block after the other, so that it comes back only after hundreds of metres.
+fn institute(random: &mut ChaCha8Rng) -> Ground {
+    let (columns, rows): (usize, usize) = (random.random_range(2..4), random.random_range(2..4));
+    let mut lines = |count: usize| {
+        let mut at = vec![0.0];
+        for _ in 1..count {
+            at.push(at[at.len() - 1] + random.random_range(35.0..110.0));
+        }
+        at
+    };
+    let (xs, ys) = (lines(columns), lines(rows));
+    let mut spaces = Vec::new();
+    let mut lay = |a: Point, b: Point| {
+        let half = random.random_range(0.9..1.7);
+        spaces.push(corridor(a, b, half));
+        spaces.extend(irregular_doorways(a, b, half, random));
+    };
+    for &y in &ys {
+        xs.windows(2).for_each(|pair| lay([pair[0], y], [pair[1], y]));
+    }
+    for &x in &xs {
+        ys.windows(2).for_each(|pair| lay([x, pair[0]], [x, pair[1]]));
+    }
+    let at = |column: usize, row: usize| [xs[column], ys[row]];
+    let mut way = vec![at(0, 0)];
+    for (column, row) in (0..columns - 1).flat_map(|column| (0..rows - 1).map(move |row| (column, row))) {
+        // Along the lower side to the block, around it, and on.
+        let last = way[way.len() - 1];
+        let first = at(column, row);
+        if last != first {
+            way.push([last[0], first[1]]);
+            way.push(first);
+        }
+        let around = [at(column + 1, row), at(column + 1, row + 1), at(column, row + 1), first];
+        way.extend(around);
+    }
+    way.dedup();
+    way.push(at(columns - 1, way_row(&way, &ys)));
+    way.dedup();
+    built(&spaces, Vec::new(), way)
+}
+
+/// The row of the last corner of a way.
+fn way_row(way: &[Point], ys: &[f64]) -> usize {
+    let last = way[way.len() - 1][1];
+    ys.iter().position(|&y| y == last).unwrap_or(0)
+}
+
+/// Doorways on either side of a corridor, each of its own width and depth.
+fn irregular_doorways(a: Point, b: Point, half: f64, random: &mut ChaCha8Rng) -> Vec<Space> {
+    let axis = usize::from((b[1] - a[1]).abs() > (b[0] - a[0]).abs());
+    let (from, to) = (a[axis].min(b[axis]), a[axis].max(b[axis]));
+    let mut spaces = Vec::new();
+    for out in [-1.0, 1.0] {
+        let mut along = from + random.random_range(3.0..8.0);
+        while along < to - 5.0 {
+            let width = random.random_range(0.8..1.3);
+            let deep = if random.random_bool(0.2) { 3.0 } else { random.random_range(0.08..0.4) };
+            let side = 1 - axis;
+            let (inner, outer) = (a[side], a[side] + out * (half + deep));
+            let mut space = [[0.0; 2]; 2];
+            (space[0][axis], space[1][axis]) = (along, along + width);
+            (space[0][side], space[1][side]) = (inner.min(outer), inner.max(outer));
+            spaces.push(space);
+            along += width + random.random_range(1.5..9.0);
+        }
+    }
+    spaces
 }
 
 /// Large halls with pillars all alike, joined by corridors: the walls are often out of range.
