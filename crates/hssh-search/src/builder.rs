@@ -8,6 +8,7 @@ use hssh_topology::{Axioms, AxiomsError, Preference, ReadingModelError};
 use crate::checkpoint::{CheckpointError, Checkpoints};
 use crate::constraints::{ConstraintError, VisitConstraints};
 use crate::crew::ThreadsError;
+use crate::helpers::Helpers;
 use crate::limits::{Limits, Monitor};
 use crate::order::{Goal, Order, Proving};
 use crate::posterior::{Appearance, MapPrior, ModelError, PosteriorModel};
@@ -91,6 +92,7 @@ pub struct MapperBuilder {
     pub(crate) threads: usize,
     pub(crate) monitor: Arc<Monitor>,
     pub(crate) checkpoints: Option<Checkpoints>,
+    pub(crate) helpers: Option<Arc<dyn Helpers>>,
 }
 
 impl Default for MapperBuilder {
@@ -107,6 +109,7 @@ impl Default for MapperBuilder {
             threads: 1,
             monitor: Arc::default(),
             checkpoints: None,
+            helpers: None,
         }
     }
 }
@@ -191,6 +194,12 @@ impl MapperBuilder {
     #[must_use]
     pub fn checkpoints(self, checkpoints: Checkpoints) -> Self {
         MapperBuilder { checkpoints: Some(checkpoints), ..self }
+    }
+
+    /// Other processes that help the search of a whole exploration. The result does not depend on how many they are.
+    #[must_use]
+    pub fn helpers(self, helpers: Arc<dyn Helpers>) -> Self {
+        MapperBuilder { helpers: Some(helpers), ..self }
     }
 
     /// What is sought, and in which order, in a few words.

@@ -4,6 +4,7 @@ use hssh_topology::Axioms;
 
 use crate::crew::Crew;
 use crate::experience::Experience;
+use crate::helpers::Helpers;
 use crate::limits::{StopReason, Watch};
 use crate::tree::Tree;
 
@@ -20,6 +21,40 @@ impl Context<'_> {
     /// How many travels are to be explained.
     pub(crate) fn travels(&self) -> usize {
         self.experience.observations.len()
+    }
+
+    /// Does work on items in a row, and returns what came of them in that order: all of it here, or shared with the other processes, if there
+    /// are any and at least `least` items for each. `request` says what to do with those items, and `hear` what the answer means.
+    ///
+    /// What comes of the items does not depend on who does it. If a process is lost, its share is done here, and the search stops soon.
+    pub(crate) fn share<T, R>(
+        &self,
+        items: &[T],
+        least: usize,
+        request: impl Fn(&[T]) -> Vec<u8>,
+        mut here: impl FnMut(&[T]) -> Vec<R>,
+        hear: impl Fn(&[T], &[u8]) -> Option<Vec<R>>,
+    ) -> Vec<R> {
+        let is_enough = |helpers: &&dyn Helpers| items.len() >= 2 * least && helpers.count() > 0;
+        let Some(helpers) = self.crew.helpers().filter(is_enough) else { return here(items) };
+        let share = items.len().div_ceil(helpers.count() + 1).max(least);
+        let (own, given) = items.split_at(share);
+        let shares: Vec<&[T]> = given.chunks(share).collect();
+        let requests = shares.iter().map(|share| request(share)).collect();
+        let mut own_done = None;
+        let answers = helpers.ask(requests, &mut || own_done = Some(here(own)));
+        let mut done = own_done.unwrap_or_else(|| here(own));
+        let heard: Option<Vec<Vec<R>>> = answers.and_then(|answers| {
+            shares.iter().zip(answers).map(|(share, answer)| hear(share, &answer)).collect()
+        });
+        match heard {
+            Some(heard) => done.extend(heard.into_iter().flatten()),
+            None => {
+                self.watch.interrupt();
+                done.extend(here(given));
+            }
+        }
+        done
     }
 
     /// Why the search has to stop now, if it has to.

@@ -160,6 +160,11 @@ impl Watch {
         first.is_some_and(|first| Instant::now() >= first).then_some(StopReason::TimeLimit)
     }
 
+    /// Stops the search soon.
+    pub(crate) fn interrupt(&self) {
+        self.monitor.interrupt();
+    }
+
     /// The same, but the search stops at that moment as if its time were over, if it is not over before.
     pub(crate) fn pausing(&self, pause: Option<Instant>) -> Self {
         Watch { pause, ..self.clone() }

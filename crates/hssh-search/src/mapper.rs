@@ -1,6 +1,5 @@
 //! The on-line mapper: one visit at a time, its maps at any time.
 
-use std::io;
 use std::time::Instant;
 
 use hssh_causal::Exploration;
@@ -10,13 +9,14 @@ use hssh_topology::{Hypothesis, Position, Preference, Star};
 use crate::branch::Branch;
 use crate::builder::{MapperBuilder, MapperError, Objective};
 use crate::certificate;
-use crate::checkpoint::{Identity, Keeping, Pack, Pen, State, Unsealed, write_state};
+use crate::checkpoint::{Identity, Keeping, State, Unsealed};
 use crate::context::Context;
 use crate::crew::Crew;
 use crate::cursor::Cursor;
 use crate::distinction::{Distinction, distinguish};
 use crate::engine::Engine;
 use crate::experience::Experience;
+use crate::kept::kept;
 use crate::leaf::Appraise;
 use crate::limits::{Limits, StopReason, Watch};
 use crate::measured::MeasuredTravel;
@@ -32,6 +32,13 @@ use crate::visit::{MeasurementError, Visit, VisitError};
 enum Search {
     Preference(Box<Engine<ByPreference>>),
     Posterior(Box<Engine<ByPosterior>>),
+}
+
+/// Who appraises in a search for either objective.
+#[derive(Clone, Copy, Debug)]
+pub(crate) enum Searching<'a> {
+    Preference(&'a ByPreference),
+    Posterior(&'a ByPosterior),
 }
 
 /// Does the same with the engine of either search.
@@ -154,7 +161,7 @@ impl Mapper {
         if let Objective::Posterior(model) = options.objective {
             model.check()?;
         }
-        let crew = Crew::new(options.threads)?;
+        let crew = Crew::new(options.threads)?.helped(options.helpers.clone());
         let asks_for_boundaries =
             options.objective.asks_for_boundaries() || options.axioms.ask_for_boundaries();
         let experience = experience.with_boundaries(asks_for_boundaries);
@@ -230,7 +237,7 @@ impl Mapper {
         with_engine!(search, engine => {
             let read = |unsealed: &mut Unsealed<'_>| {
                 let before: f64 = unsealed.take()?;
-                let state = State::read(unsealed, context.travels())?;
+                let state = State::read(unsealed, context)?;
                 Ok((state.nodes(), (before, state)))
             };
             if let Some((before, state)) = keeping.begin(read)? {
@@ -417,6 +424,15 @@ impl Mapper {
         &self.experience
     }
 
+    /// What its search is given, and who appraises.
+    pub(crate) fn searching<'a>(&'a self, watch: &'a Watch) -> (Context<'a>, Searching<'a>) {
+        let searching = match &self.search {
+            Search::Preference(engine) => Searching::Preference(&engine.appraiser),
+            Search::Posterior(engine) => Searching::Posterior(&engine.appraiser),
+        };
+        (self.context(watch), searching)
+    }
+
     /// What every search is given.
     fn context<'a>(&'a self, watch: &'a Watch) -> Context<'a> {
         let Mapper { experience, crew, options, .. } = self;
@@ -478,31 +494,6 @@ impl Mapper {
             bytes: engine.tree.bytes() + engine.bytes,
         }
     }
-}
-
-/// Searches on, and keeps checkpoints on the way: what `head` writes, and the state of the search.
-fn kept<A: Pack>(
-    engine: &mut Engine<A>,
-    context: Context<'_>,
-    keeping: &mut Keeping,
-    head: impl Fn(&mut Pen<'_>) -> io::Result<()>,
-) -> StopReason {
-    let limits = engine.limits(context.watch);
-    let stop = loop {
-        let watch = &limits.pausing(keeping.due);
-        let stop = engine.advance(Context { watch, ..context });
-        if !stop.is_complete() {
-            keeping.keep(|pen| {
-                head(pen)?;
-                write_state(engine, pen)
-            });
-        }
-        if !watch.is_pause(stop) {
-            break stop;
-        }
-    };
-    engine.end(stop, context);
-    stop
 }
 
 /// What is known about the answer of a search whose keys are bounds.

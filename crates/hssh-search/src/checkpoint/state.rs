@@ -7,13 +7,14 @@ use hssh_metrics::SolveError;
 use serde::{Deserialize, Serialize};
 
 use super::error::CheckpointError;
-use super::pack::Pack;
+use super::pack::{Pack, PackedLeaf};
 use super::seal::{Pen, Unsealed};
+use crate::context::Context;
 use crate::engine::{Engine, Found, GrowingLevel, Sweep};
 use crate::fringe::Fringe;
 use crate::leaf::Leaf;
 use crate::tally::Tally;
-use crate::tree::{NodeId, Tree};
+use crate::tree::Tree;
 
 /// What is small.
 #[derive(Serialize, Deserialize)]
@@ -39,10 +40,6 @@ struct Growing {
     tally: Tally,
     next: usize,
 }
-
-/// A leaf, its load packed.
-#[derive(Serialize, Deserialize)]
-struct PackedLeaf<K, L>(K, u32, NodeId, u32, u32, L);
 
 /// The leaves of a search by where they are, in an order that a search cannot tell from that which they had.
 fn leaves<A: Pack>(engine: &Engine<A>) -> [Vec<&Leaf<A>>; 5] {
@@ -81,10 +78,7 @@ pub(crate) fn write_state<A: Pack>(engine: &Engine<A>, pen: &mut Pen<'_>) -> io:
     let shared = A::share(leaves.iter().flatten().map(|leaf| &leaf.load));
     pen.put(&shared)?;
     for leaves in leaves {
-        pen.put_all(leaves.into_iter().map(|leaf| {
-            let Leaf { key, arrival, node, depth, pending, ref load } = *leaf;
-            PackedLeaf(key, arrival, node, depth, pending, A::pack(load, &shared))
-        }))?;
+        pen.put_all(leaves.into_iter().map(|leaf| PackedLeaf::of(leaf, &shared)))?;
     }
     Ok(())
 }
@@ -98,11 +92,12 @@ pub(crate) struct State<A: Pack> {
 }
 
 impl<A: Pack> State<A> {
-    /// Reads the state of a search through the maps of so many travels.
+    /// Reads the state of a search.
     ///
     /// # Errors
     /// If it is none.
-    pub(crate) fn read(unsealed: &mut Unsealed<'_>, travels: usize) -> Result<Self, CheckpointError> {
+    pub(crate) fn read(unsealed: &mut Unsealed<'_>, context: Context<'_>) -> Result<Self, CheckpointError> {
+        let travels = context.travels();
         let tree: Tree = unsealed.take()?;
         if !tree.is_sound(travels) {
             return Err(CheckpointError::Damaged);
@@ -111,10 +106,10 @@ impl<A: Pack> State<A> {
         let shared: A::Read = unsealed.take()?;
         let mut leaves: [Vec<Leaf<A>>; 5] = Default::default();
         for leaves in &mut leaves {
-            *leaves = unsealed.take_all(|PackedLeaf(key, arrival, node, depth, pending, load)| {
-                let is_there = node.index() < tree.len() && tree.depth(node) == depth as usize;
-                let load = A::unpack(load, &shared).filter(|_| is_there)?;
-                Some(Leaf { key, arrival, node, depth, pending, load })
+            *leaves = unsealed.take_all(|packed: PackedLeaf<A::Key, A::Packed>| {
+                let leaf: Leaf<A> = packed.unpack(&shared, context.axioms)?;
+                let is_there = leaf.node.index() < tree.len() && tree.depth(leaf.node) == leaf.depth();
+                is_there.then_some(leaf)
             })?;
         }
         let state = State { tree, small, leaves };

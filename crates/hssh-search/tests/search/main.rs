@@ -10,6 +10,7 @@ mod checkpoints;
 mod constraints;
 mod distinction;
 mod found;
+mod helpers;
 mod limits;
 mod online;
 mod posterior;

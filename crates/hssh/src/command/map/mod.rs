@@ -8,11 +8,14 @@ mod processes;
 mod processes;
 mod search;
 
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::time::Duration;
 
 use hssh::answer::Listing;
-use hssh::pipeline::{Checkpoints, Input, Mapped, MappingOptions, PipelineError, SearchMethod, SurveyedLog};
+use hssh::pipeline::{
+    Checkpoints, Input, Keeper, Mapped, MappingOptions, Means, PipelineError, SearchMethod, SurveyedLog,
+};
 
 use crate::arguments::MapArguments;
 use crate::command::export::write_maps;
@@ -66,9 +69,10 @@ pub(crate) fn answer(
         (Some(surveyed), Some(folder)) => draw_survey(&surveyed.log, &surveyed.survey, folder)?,
         (Some(_), None) => {}
     }
-    let file = arguments.checkpoint.as_deref().map(|file| Arc::new(CheckpointFile::new(file)));
-    let mapped = processes::spread(arguments, input, options, kept(arguments, file.clone()));
-    let mut mapped = mapped.map_err(|failure| failure.of_checkpoint(arguments.checkpoint.as_deref()))?;
+    let names = arguments.checkpoint.as_deref().map(checkpoint_files);
+    let files = names.as_ref().map(|names| names.each_ref().map(|name| Arc::new(CheckpointFile::new(name))));
+    let mapped = processes::spread(arguments, input, options, kept(arguments, files.as_ref()));
+    let mut mapped = mapped.map_err(|failure| failure.of_checkpoint(names.as_ref()))?;
     if arguments.with_trajectory {
         mapped.carry_trajectories(input);
     }
@@ -105,25 +109,39 @@ pub(crate) fn answer(
     }
     draw::draw(arguments, input, &mapped, &mut written)?;
     write_maps(&arguments.file, &arguments.files, arguments.rank, (input, &mapped), &mut written);
-    if let Some(file) = file {
-        let is_complete = mapped.answer.search.stop.is_complete();
+    let is_complete = mapped.answer.search.stop.is_complete();
+    for file in files.into_iter().flatten() {
         written.note(if is_complete { file.remove() } else { file.leave() });
     }
     written.done()?;
     Ok(Status::of(&mapped.answer))
 }
 
+/// Where the search is kept, and the search for readings that comes before it: in a file beside that.
+fn checkpoint_files(file: &Path) -> [PathBuf; 2] {
+    let mut readings = file.as_os_str().to_owned();
+    readings.push(".readings");
+    [file.to_owned(), readings.into()]
+}
+
 /// How the search is kept, if it is.
-fn kept(arguments: &MapArguments, file: Option<Arc<CheckpointFile>>) -> Option<Checkpoints> {
+fn kept(arguments: &MapArguments, files: Option<&[Arc<CheckpointFile>; 2]>) -> Means<'static> {
     let every = Duration::try_from_secs_f64(arguments.checkpoint_every).unwrap_or(Duration::MAX);
-    file.map(|keeper| Checkpoints { keeper, every })
+    let [checkpoints, reading_checkpoints] = match files {
+        Some(files) => files.each_ref().map(|file| {
+            let keeper = Arc::clone(file) as Arc<dyn Keeper>;
+            Some(Checkpoints { keeper, every })
+        }),
+        None => [None, None],
+    };
+    Means { checkpoints, reading_checkpoints, searchers: None }
 }
 
 /// Takes part in a search whose answer another process gives.
 fn help(arguments: &MapArguments) -> Result<Status, Failure> {
     let options = arguments.options()?;
     let input = read_input(&arguments.file, &options, &arguments.laser.topics)?;
-    match processes::spread(arguments, &input, &options, None) {
+    match processes::spread(arguments, &input, &options, Means::default()) {
         Err(Failure::Pipeline(error)) if matches!(*error, PipelineError::AnsweredElsewhere) => {
             Ok(Status::Found)
         }
