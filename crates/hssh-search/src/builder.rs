@@ -8,6 +8,7 @@ use hssh_topology::{Axioms, AxiomsError, Preference, ReadingModelError};
 use crate::checkpoint::{CheckpointError, Checkpoints};
 use crate::constraints::{ConstraintError, VisitConstraints};
 use crate::crew::ThreadsError;
+use crate::elsewhere::Store;
 use crate::helpers::Helpers;
 use crate::limits::{Limits, Monitor};
 use crate::order::{Goal, Order, Proving};
@@ -72,6 +73,9 @@ pub enum MapperError {
     /// There is a checkpoint that the search cannot go on from.
     #[error(transparent)]
     Checkpoint(#[from] CheckpointError),
+    /// Open hypotheses that were kept elsewhere cannot be read any more.
+    #[error("open hypotheses that were kept on disk cannot be read any more: {0}")]
+    Lost(String),
     /// No threads.
     #[error(transparent)]
     Threads(#[from] ThreadsError),
@@ -93,6 +97,7 @@ pub struct MapperBuilder {
     pub(crate) monitor: Arc<Monitor>,
     pub(crate) checkpoints: Option<Checkpoints>,
     pub(crate) helpers: Option<Arc<dyn Helpers>>,
+    pub(crate) store: Option<Arc<dyn Store>>,
 }
 
 impl Default for MapperBuilder {
@@ -110,6 +115,7 @@ impl Default for MapperBuilder {
             monitor: Arc::default(),
             checkpoints: None,
             helpers: None,
+            store: None,
         }
     }
 }
@@ -200,6 +206,13 @@ impl MapperBuilder {
     #[must_use]
     pub fn helpers(self, helpers: Arc<dyn Helpers>) -> Self {
         MapperBuilder { helpers: Some(helpers), ..self }
+    }
+
+    /// Where open hypotheses are kept for which the limit on memory leaves no room: then the search goes on, with the same result. Of the searches
+    /// level by level and of counts nothing is kept there.
+    #[must_use]
+    pub fn spilling(self, store: Arc<dyn Store>) -> Self {
+        MapperBuilder { store: Some(store), ..self }
     }
 
     /// What is sought, and in which order, in a few words.

@@ -1,10 +1,11 @@
 //! What every search is given: what to explain, under which rules, and who helps.
 
+use std::time::Duration;
+
 use hssh_topology::Axioms;
 
 use crate::crew::Crew;
 use crate::experience::Experience;
-use crate::helpers::Helpers;
 use crate::limits::{StopReason, Watch};
 use crate::tree::Tree;
 
@@ -24,19 +25,24 @@ impl Context<'_> {
     }
 
     /// Does work on items in a row, and returns what came of them in that order: all of it here, or shared with the other processes, if there
-    /// are any and at least `least` items for each. `request` says what to do with those items, and `hear` what the answer means.
+    /// are any and enough items for each, one of which takes about so much time. `request` says what to do with those items, and `hear` what the answer means.
     ///
     /// What comes of the items does not depend on who does it. If a process is lost, its share is done here, and the search stops soon.
     pub(crate) fn share<T, R>(
         &self,
         items: &[T],
-        least: usize,
+        time: Duration,
         request: impl Fn(&[T]) -> Vec<u8>,
         mut here: impl FnMut(&[T]) -> Vec<R>,
         hear: impl Fn(&[T], &[u8]) -> Option<Vec<R>>,
     ) -> Vec<R> {
-        let is_enough = |helpers: &&dyn Helpers| items.len() >= 2 * least && helpers.count() > 0;
-        let Some(helpers) = self.crew.helpers().filter(is_enough) else { return here(items) };
+        let Some(helpers) = self.crew.helpers().filter(|helpers| helpers.count() > 0) else {
+            return here(items);
+        };
+        let least = (helpers.least_work().div_duration_f64(time).ceil() as usize).max(1);
+        if items.len() < 2 * least {
+            return here(items);
+        }
         let share = items.len().div_ceil(helpers.count() + 1).max(least);
         let (own, given) = items.split_at(share);
         let shares: Vec<&[T]> = given.chunks(share).collect();

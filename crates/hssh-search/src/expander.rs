@@ -42,6 +42,7 @@ impl Expander {
             monitor: Arc::new(Monitor::default()),
             checkpoints: None,
             helpers: None,
+            store: None,
             threads: 1,
             ..options
         };

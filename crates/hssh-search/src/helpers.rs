@@ -1,6 +1,7 @@
 //! Processes that help a search: whoever carries requests to them, and their answers back.
 
 use std::fmt::Debug;
+use std::time::Duration;
 
 use serde::Serialize;
 use serde::de::DeserializeOwned;
@@ -9,6 +10,11 @@ use serde::de::DeserializeOwned;
 pub trait Helpers: Debug + Send + Sync {
     /// How many there are.
     fn count(&self) -> usize;
+
+    /// Work of less time is not worth the way to them.
+    fn least_work(&self) -> Duration {
+        Duration::from_micros(200)
+    }
 
     /// Sends each request to the helper of its number, does `meanwhile`, and waits for the answers, in the order of the requests. `None` if one of
     /// them cannot answer any more; from then on, always.

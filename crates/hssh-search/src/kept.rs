@@ -2,10 +2,11 @@
 
 use std::io;
 
-use crate::checkpoint::{Keeping, Pack, Pen, write_state};
+use crate::checkpoint::{Keeping, Pen, write_state};
 use crate::context::Context;
 use crate::engine::Engine;
 use crate::limits::StopReason;
+use crate::pack::Pack;
 
 /// Searches on, and keeps checkpoints on the way: what `head` writes, and the state of the search.
 pub(crate) fn kept<A: Pack>(
@@ -18,7 +19,7 @@ pub(crate) fn kept<A: Pack>(
     let stop = loop {
         let watch = &limits.pausing(keeping.due);
         let stop = engine.advance(Context { watch, ..context });
-        if !stop.is_complete() {
+        if !stop.is_complete() && engine.frontier.lost().is_none() {
             keeping.keep(|pen| {
                 head(pen)?;
                 write_state(engine, pen)

@@ -204,6 +204,11 @@ impl Watch {
         self.limits.nodes.is_some()
     }
 
+    /// Which part of what it may the process takes; nothing if that is not limited, or not known.
+    pub(crate) fn taken(&self) -> Option<f64> {
+        Some(self.monitor.taken()? as f64 / self.limits.bytes? as f64)
+    }
+
     /// Whether that many nodes or bytes are too many.
     pub(crate) fn excess(&self, nodes: u64, bytes: u64) -> Option<StopReason> {
         if self.limits.nodes.is_some_and(|most| nodes > most) {

@@ -14,6 +14,7 @@ use crate::context::Context;
 use crate::crew::Crew;
 use crate::cursor::Cursor;
 use crate::distinction::{Distinction, distinguish};
+use crate::elsewhere::Elsewhere;
 use crate::engine::Engine;
 use crate::experience::Experience;
 use crate::kept::kept;
@@ -21,6 +22,7 @@ use crate::leaf::Appraise;
 use crate::limits::{Limits, StopReason, Watch};
 use crate::measured::MeasuredTravel;
 use crate::order::Order;
+use crate::pack::Pack;
 use crate::posterior::{ByPosterior, LINEAR_TRUST, Metrical, PosteriorModel};
 use crate::preference::ByPreference;
 use crate::report::{FinalCounts, Proof, RankedMap, Report};
@@ -88,6 +90,9 @@ impl MapperBuilder {
         let mut mapper = Mapper::new(self, Experience::from(exploration), &watch)?;
         mapper.begin(&keeping)?;
         mapper.go_on(&watch, &mut keeping);
+        if let Some(problem) = with_engine!(&mapper.search, engine => engine.frontier.lost()) {
+            return Err(MapperError::Lost(problem.to_string()));
+        }
         match mapper.unsolvable() {
             Some((travels, problem)) if mapper.is_empty() => {
                 Err(MapperError::Unsolvable { travels, problem: *problem })
@@ -168,14 +173,18 @@ impl Mapper {
         let experience = experience.with_constraints(options.constraints.clone());
         let context = Context { experience: &experience, axioms: &options.axioms, crew: &crew, watch };
         let MapperBuilder { order, goal, proving, .. } = options;
+        let store = options.store.clone();
+        let elsewhere = store.map(|store| Elsewhere::new(store, options.axioms));
         let search = match options.objective {
             Objective::Preference(preference) => {
                 let appraiser = ByPreference { preference, order };
-                Search::Preference(Box::new(Engine::new(appraiser, order, goal, proving, context)?))
+                Search::Preference(Box::new(Engine::new(
+                    appraiser, order, goal, proving, elsewhere, context,
+                )?))
             }
             Objective::Posterior(model) => {
                 let appraiser = ByPosterior::new(model, options.appearance.clone(), order);
-                Search::Posterior(Box::new(Engine::new(appraiser, order, goal, proving, context)?))
+                Search::Posterior(Box::new(Engine::new(appraiser, order, goal, proving, elsewhere, context)?))
             }
         };
         let searched = experience.observations.len();
@@ -237,7 +246,7 @@ impl Mapper {
         with_engine!(search, engine => {
             let read = |unsealed: &mut Unsealed<'_>| {
                 let before: f64 = unsealed.take()?;
-                let state = State::read(unsealed, context)?;
+                let state = State::read(unsealed, engine.frontier.elsewhere.as_ref(), context)?;
                 Ok((state.nodes(), (before, state)))
             };
             if let Some((before, state)) = keeping.begin(read)? {
@@ -441,7 +450,7 @@ impl Mapper {
 
     /// The maps that were found, ranked, with counts over all of them; if a limit came before the first, the
     /// best hypothesis of those that got farthest.
-    fn survey<A: Appraise>(
+    fn survey<A: Pack>(
         &self,
         engine: &Engine<A>,
         preference: Preference,
@@ -468,7 +477,7 @@ impl Mapper {
         (counts, maps)
     }
 
-    fn report_on<A: Appraise>(&self, engine: &Engine<A>, finals: FinalCounts) -> Report {
+    fn report_on<A: Pack>(&self, engine: &Engine<A>, finals: FinalCounts) -> Report {
         let levels = engine.tally.levels.clone();
         let order = self.options.order;
         let has_bound = A::WEIGHS || matches!(order, Order::Cyclic | Order::Proof);
@@ -497,7 +506,7 @@ impl Mapper {
 }
 
 /// What is known about the answer of a search whose keys are bounds.
-pub(crate) fn proof<A: Appraise>(engine: &Engine<A>) -> Proof {
+pub(crate) fn proof<A: Pack>(engine: &Engine<A>) -> Proof {
     let Engine { appraiser, found, factors, reach, .. } = engine;
     let unsolvable = engine.unsolvable.is_some();
     let best = found.first().map(|found| found.leaf.key);

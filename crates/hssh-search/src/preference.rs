@@ -6,12 +6,12 @@
 use hssh_metrics::SolveError;
 use hssh_topology::{Axioms, Measure, Preference, Rank, Step, TopologicalMap};
 
-use crate::checkpoint::Pack;
 use crate::context::Context;
 use crate::cursor::Cursor;
 use crate::leaf::{Appraise, Grown, Growth, Leaf};
 use crate::limits::StopReason;
 use crate::order::Order;
+use crate::pack::Pack;
 use crate::report::Score;
 use crate::step::{Look, successors};
 use crate::tree::{NodeId, Tree};

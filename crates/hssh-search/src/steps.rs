@@ -1,6 +1,7 @@
 //! The recursive step applied to many nodes, by the threads of this process and by those that help it.
 
 use std::ops::Range;
+use std::time::Duration;
 
 use hssh_topology::{Outcome, Removals, Step};
 use serde::{Deserialize, Serialize};
@@ -11,6 +12,9 @@ use crate::helpers::{Asked, read, written};
 use crate::paths::{Choice, Paths, Prefixes};
 use crate::step::{Look, successors};
 use crate::tree::{Child, NodeId, Tree};
+
+/// About how long it takes to apply the step to a piece of a level.
+const TIME: Duration = Duration::from_millis(1);
 
 /// What the step makes of some nodes in a row.
 pub(crate) struct Stepped {
@@ -66,7 +70,7 @@ pub(crate) fn step_all(pieces: &[Range<u32>], tree: &Tree, context: Context<'_>)
         }
         Some(vec![stepped])
     };
-    context.share(pieces, 1, request, here, hear)
+    context.share(pieces, TIME, request, here, hear)
 }
 
 /// Applies the step to nodes that somebody asks for.

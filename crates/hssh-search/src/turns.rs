@@ -1,14 +1,16 @@
 //! The turns of open hypotheses, taken by the threads of this process and by those that help it.
 
+use std::time::Duration;
+
 use hssh_metrics::SolveError;
 use hssh_topology::{Outcome, Removals};
 use serde::{Deserialize, Serialize};
 
-use crate::checkpoint::{Pack, PackedLeaf};
 use crate::context::Context;
 use crate::cursor::Cursor;
 use crate::helpers::{Asked, read, written};
 use crate::leaf::{Appraise, Grown, Growth, Leaf, matters};
+use crate::pack::{Pack, PackedLeaf};
 use crate::paths::{Choice, Paths, Prefixes};
 use crate::tree::{Child, NodeId, Tree};
 
@@ -102,8 +104,8 @@ impl<A: Appraise> Turn<A> {
     }
 }
 
-/// For a hypothesis by preference, which takes microseconds, so many turns are worth the way to another process; for one by posterior one is.
-const LEAST: usize = 64;
+/// About how long a turn takes by preference, and by posterior.
+const TIMES: [Duration; 2] = [Duration::from_micros(3), Duration::from_micros(500)];
 
 /// Takes turns; what came of each, in their order. `here` takes those that fall to this process.
 pub(crate) fn take_all<A: Pack>(
@@ -129,7 +131,7 @@ pub(crate) fn take_all<A: Pack>(
         let taken = packed.into_iter().zip(turns);
         taken.map(|(packed, turn)| packed.unpack(turn.leaf.node, &shared, context)).collect()
     };
-    context.share(turns, if A::WEIGHS { 1 } else { LEAST }, request, here, hear)
+    context.share(turns, TIMES[usize::from(A::WEIGHS)], request, here, hear)
 }
 
 /// Takes turns that somebody asks for; `None` if they are none of this search.

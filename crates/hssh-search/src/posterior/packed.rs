@@ -8,7 +8,7 @@ use hssh_topology::{Axioms, SimplicityFloor};
 use serde::ser::SerializeTuple;
 use serde::{Deserialize, Serialize, Serializer};
 
-use crate::checkpoint::Pack;
+use crate::pack::Pack;
 use crate::posterior::by_posterior::{Burden, ByPosterior, Nats, Placing};
 use crate::posterior::cost::Cost;
 use crate::posterior::layout::Layout;

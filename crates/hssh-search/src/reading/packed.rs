@@ -7,7 +7,7 @@ use hssh_topology::{Axioms, TopologicalMap, Way};
 use serde::ser::SerializeTuple;
 use serde::{Deserialize, Serialize, Serializer};
 
-use crate::checkpoint::Pack;
+use crate::pack::Pack;
 use crate::posterior::{Cost, Nats};
 use crate::reading::by_reading::{Burden, ByReading, Stage};
 use crate::reading::state::{Passage, State, Trace};

@@ -13,6 +13,7 @@ use crate::checkpoint::{Checkpoints, Identity, Keeping, State, write_state};
 use crate::constraints::VisitConstraints;
 use crate::context::Context;
 use crate::crew::Crew;
+use crate::elsewhere::{Elsewhere, Store};
 use crate::engine::Engine;
 use crate::experience::Experience;
 use crate::kept::kept;
@@ -53,6 +54,8 @@ pub struct Reader {
     /// Where its state is kept from time to time. It goes on from the checkpoint that is there, if there is one, with the answer of a search
     /// that was never interrupted; the last one, when the search has come to its end, has the answer.
     pub checkpoints: Option<Checkpoints>,
+    /// Where open accounts are kept for which the limit on memory leaves no room.
+    pub store: Option<Arc<dyn Store>>,
 }
 
 /// What a search for accounts came to.
@@ -125,6 +128,7 @@ impl Reader {
             threads: 1,
             monitor: Arc::default(),
             checkpoints: None,
+            store: None,
         }
     }
 
@@ -151,7 +155,8 @@ impl Reader {
         let context = Context { experience: &experience, axioms: &self.axioms, crew: &crew, watch: &watch };
         let appraiser = ByReading::new(model, self.reading, self.bearing_deviation, &experience);
         let proving = Proving { best: self.best, rest: 1.0, patience: self.patience };
-        let mut engine = Engine::new(appraiser, Order::Cyclic, Goal::AnyMap, proving, context)?;
+        let elsewhere = self.store.clone().map(|store| Elsewhere::new(store, self.axioms));
+        let mut engine = Engine::new(appraiser, Order::Cyclic, Goal::AnyMap, proving, elsewhere, context)?;
         let mut keeping = Keeping::new(self.checkpoints.clone(), || self.identity(exploration));
         let before = self.go_on(&mut engine, &keeping, context)?;
         let seconds = || before + started.elapsed().as_secs_f64();
@@ -169,6 +174,9 @@ impl Reader {
                 stop
             }
         };
+        if let Some(problem) = engine.frontier.lost() {
+            return Err(MapperError::Lost(problem.to_string()));
+        }
         if let Some((travels, problem)) = engine.unsolvable.filter(|_| engine.found.is_empty()) {
             return Err(MapperError::Unsolvable { travels, problem });
         }
@@ -200,7 +208,7 @@ impl Reader {
     ) -> Result<f64, MapperError> {
         let kept = keeping.begin(|unsealed| {
             let before: f64 = unsealed.take()?;
-            let state = State::read(unsealed, context)?;
+            let state = State::read(unsealed, engine.frontier.elsewhere.as_ref(), context)?;
             Ok((state.nodes(), (before, state)))
         })?;
         let Some((before, state)) = kept else { return Ok(0.0) };

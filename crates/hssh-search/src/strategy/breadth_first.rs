@@ -2,12 +2,12 @@
 
 use std::time::Duration;
 
-use crate::checkpoint::Pack;
 use crate::context::Context;
 use crate::cursor::Cursor;
 use crate::engine::{Engine, GrowingLevel};
 use crate::leaf::Leaf;
 use crate::limits::{StopReason, Watch};
+use crate::pack::Pack;
 use crate::turns::{End, Taken, Turn, take_all};
 
 /// Hypotheses between two looks at the limits.
@@ -58,7 +58,7 @@ impl<A: Pack> Engine<A> {
     fn grow_appraised(&mut self, context: Context<'_>) -> Result<(), StopReason> {
         let depth = self.fringe.depth;
         let mut growing = self.growing.take().unwrap_or_else(|| {
-            let mut leaves: Vec<Leaf<A>> = std::iter::from_fn(|| self.frontier.levels[depth].pop()).collect();
+            let mut leaves: Vec<Leaf<A>> = std::iter::from_fn(|| self.frontier.pop(depth)).collect();
             leaves.sort_unstable_by_key(|leaf| leaf.node);
             let (nodes, maps, tally) = (self.tree.len(), self.tree.map_count(), self.tally.clone());
             GrowingLevel { nodes, maps, tally, leaves, next: 0 }
@@ -96,7 +96,7 @@ impl<A: Pack> Engine<A> {
     /// Forgets the level that is being grown, if there is one.
     fn give_up_appraised(&mut self, context: Context<'_>) {
         let Some(GrowingLevel { nodes, maps, tally, leaves, .. }) = self.growing.take() else { return };
-        let given_up = self.frontier.levels[self.fringe.depth + 1].empty();
+        let given_up = self.frontier.empty(self.fringe.depth + 1);
         self.bytes -= given_up.iter().map(|leaf| self.appraiser.bytes(leaf)).sum::<u64>();
         self.fringe.forget(&mut self.tree, nodes, maps, context);
         self.tally = tally;
@@ -106,7 +106,7 @@ impl<A: Pack> Engine<A> {
     /// All hypotheses of the complete fringe are maps that were found.
     fn find_fringe(&mut self, context: Context<'_>) {
         let mut cursor = self.lend_cursor(context);
-        while let Some(mut leaf) = self.frontier.levels[context.travels()].pop() {
+        while let Some(mut leaf) = self.frontier.pop(context.travels()) {
             self.bytes -= self.appraiser.bytes(&leaf);
             if self.appraiser.is_settled(&leaf) || self.settle(&mut leaf, &mut cursor, context) {
                 self.arrive(leaf);

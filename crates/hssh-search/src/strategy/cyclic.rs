@@ -6,12 +6,12 @@
 //! share the step, and the result does not depend on how many they are. Once there is a map, the proof asks for all that is
 //! within reach, and fronts with nothing to do help the others.
 
-use crate::checkpoint::Pack;
 use crate::context::Context;
 use crate::cursor::Cursor;
 use crate::engine::{Cycle, Engine};
 use crate::leaf::matters;
 use crate::limits::StopReason;
+use crate::pack::Pack;
 use crate::tree::Tree;
 use crate::turns::{End, Taken, Turn, take_all};
 
@@ -87,7 +87,7 @@ impl<A: Pack> Engine<A> {
                     End::Overtaken => {
                         let leaf = taken.leaf.clone();
                         self.end_turn(taken, context);
-                        self.frontier.levels[levels[front]].push(leaf);
+                        self.frontier.push(leaf);
                     }
                     _ => ended[front].push(taken),
                 }
@@ -98,9 +98,8 @@ impl<A: Pack> Engine<A> {
 
     /// The best hypothesis of a level, if there is one.
     fn next_turn(&mut self, level: usize, front: usize) -> Option<Turn<A>> {
-        let level = &mut self.frontier.levels[level];
-        let leaf = level.pop()?;
-        let next = level.peek().map(|next| (next.key, next.arrival));
+        let leaf = self.frontier.pop(level)?;
+        let next = self.frontier.first(level);
         Some(Turn { leaf, reach: self.reach, next, front })
     }
 
@@ -108,8 +107,8 @@ impl<A: Pack> Engine<A> {
     fn take_shares(&mut self, levels: &[usize], context: Context<'_>) -> bool {
         let mut leaves = Vec::with_capacity(FRONTS);
         for _ in 0..FRONTS {
-            let queues = &mut self.frontier.levels;
-            leaves.extend(levels.iter().filter_map(|&level| queues[level].pop()).take(FRONTS - leaves.len()));
+            let next = levels.iter().filter_map(|&level| self.frontier.pop(level));
+            leaves.extend(next.take(FRONTS - leaves.len()));
         }
         let any = !leaves.is_empty();
         let reach = self.reach;
@@ -172,7 +171,7 @@ impl<A: Pack> Engine<A> {
             let is_settled = matches!(taken.end, End::Settled);
             self.end_turn(taken, context);
             if is_overtaken {
-                self.frontier.levels[context.travels()].push(leaf);
+                self.frontier.push(leaf);
             } else if is_settled {
                 self.bytes -= self.appraiser.bytes(&leaf);
                 any = true;

@@ -5,11 +5,11 @@ mod breadth_first;
 mod cyclic;
 mod proof;
 
-use crate::checkpoint::Pack;
 use crate::context::Context;
 use crate::engine::Engine;
 use crate::limits::{StopReason, Watch};
 use crate::order::Order;
+use crate::pack::Pack;
 
 impl<A: Pack> Engine<A> {
     /// Searches on until everything observed is explained as well as was asked for, or a limit stops it.

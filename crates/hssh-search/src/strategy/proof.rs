@@ -1,11 +1,11 @@
 //! Best-first with proof: in the order of an admissible bound, until no open hypothesis can lead to a
 //! map as good as the best ones found.
 
-use crate::checkpoint::Pack;
 use crate::context::Context;
 use crate::engine::Engine;
 use crate::leaf::Leaf;
 use crate::limits::StopReason;
+use crate::pack::Pack;
 use crate::turns::{End, Taken, Turn, take_all};
 
 /// Hypotheses of equal key that are expanded together.

@@ -35,11 +35,11 @@ impl Keeper for Shelf {
 }
 
 impl Shelf {
-    fn with(bytes: Vec<u8>) -> Arc<Self> {
+    pub(crate) fn with(bytes: Vec<u8>) -> Arc<Self> {
         Arc::new(Shelf(Mutex::new(vec![bytes])))
     }
 
-    fn take(&self) -> Vec<Vec<u8>> {
+    pub(crate) fn take(&self) -> Vec<Vec<u8>> {
         std::mem::take(&mut self.0.lock().unwrap())
     }
 }

@@ -17,4 +17,5 @@ mod posterior;
 mod proof;
 mod published;
 mod reading;
+mod spilling;
 mod threads;

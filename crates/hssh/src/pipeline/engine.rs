@@ -21,7 +21,7 @@ use crate::answer::{
     Worth,
 };
 
-pub use hssh_search::{Checkpoints, Keeper, Monitor, Source};
+pub use hssh_search::{Checkpoints, Keeper, Monitor, Source, Store};
 
 /// How much more alike pairs of visits look than places at random.
 pub(crate) type Likeness = Appearance;
@@ -56,6 +56,8 @@ pub struct Means<'a> {
     pub checkpoints: Option<Checkpoints>,
     /// The same of the search for readings that comes before that.
     pub reading_checkpoints: Option<Checkpoints>,
+    /// Where hypotheses are kept for which the limit on memory leaves no room.
+    pub store: Option<Arc<dyn Store>>,
     /// Who searches.
     pub searchers: Option<&'a dyn Searchers>,
 }
@@ -160,8 +162,9 @@ impl Task<'_> {
             Some(GenusOrder::First) => GenusRank::First,
             Some(GenusOrder::Last) => GenusRank::Last,
         };
-        let builder =
-            self.means.checkpoints.clone().into_iter().fold(Mapper::builder(), MapperBuilder::checkpoints);
+        let Means { checkpoints, store, .. } = self.means;
+        let builder = checkpoints.clone().into_iter().fold(Mapper::builder(), MapperBuilder::checkpoints);
+        let builder = store.clone().into_iter().fold(builder, MapperBuilder::spilling);
         builder
             .axioms(self.options.axioms)
             .preference(Preference { genus })

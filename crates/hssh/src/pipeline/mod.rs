@@ -14,7 +14,7 @@ mod reading;
 mod scans;
 mod tracked;
 
-pub use engine::{Checkpoints, Keeper, Means, Monitor, Searchers, Source};
+pub use engine::{Checkpoints, Keeper, Means, Monitor, Searchers, Source, Store};
 pub use error::{PipelineError, SearchFailure};
 pub use input::{Input, SurveyedLog};
 pub use laser::LaserChoice;
@@ -122,7 +122,12 @@ pub fn map_with(
         let exact = options.given(&account);
         // What is not read to its end will be read otherwise when it is gone on with.
         let checkpoints = means.checkpoints.clone().filter(|_| stop.is_complete());
-        let mut mapped = map_with(&corrected, &exact, monitor, &Means { checkpoints, ..Means::default() })?;
+        let mut mapped = map_with(
+            &corrected,
+            &exact,
+            monitor,
+            &Means { checkpoints, store: means.store.clone(), ..Means::default() },
+        )?;
         if !stop.is_complete() {
             mapped.answer.search.stop = stop;
         }

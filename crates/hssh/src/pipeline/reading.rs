@@ -55,6 +55,7 @@ pub(super) fn read(
         threads: options.search.threads,
         monitor: Arc::clone(monitor),
         checkpoints: means.reading_checkpoints.clone(),
+        store: means.store.clone(),
         ..Reader::new(posterior)
     };
     let answer = reader.read(exploration).map_err(|error| match error {

@@ -11,6 +11,11 @@ pub(super) fn is_helper(_: &MapArguments) -> bool {
     false
 }
 
+/// Whether several processes are asked for.
+pub(crate) fn is_spread(_: &MapArguments) -> bool {
+    false
+}
+
 /// Searches.
 pub(super) fn spread(
     _: &MapArguments,

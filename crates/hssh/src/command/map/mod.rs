@@ -14,7 +14,8 @@ use std::time::Duration;
 
 use hssh::answer::Listing;
 use hssh::pipeline::{
-    Checkpoints, Input, Keeper, Mapped, MappingOptions, Means, PipelineError, SearchMethod, SurveyedLog,
+    Checkpoints, Input, Keeper, Mapped, MappingOptions, Means, PipelineError, SearchMethod, Store,
+    SurveyedLog,
 };
 
 use crate::arguments::MapArguments;
@@ -23,8 +24,9 @@ use crate::command::page;
 use crate::command::stages::draw_survey;
 use crate::failure::{Failure, Status};
 use crate::input::{read_input, refuse_partial};
-use crate::output::{CheckpointFile, Written, print, write_file};
+use crate::output::{CheckpointFile, SpillFile, Written, print, write_file};
 
+pub(crate) use processes::is_spread;
 pub(crate) use search::searched;
 
 pub(crate) fn run(arguments: &MapArguments) -> Result<Status, Failure> {
@@ -71,7 +73,7 @@ pub(crate) fn answer(
     }
     let names = arguments.checkpoint.as_deref().map(checkpoint_files);
     let files = names.as_ref().map(|names| names.each_ref().map(|name| Arc::new(CheckpointFile::new(name))));
-    let mapped = processes::spread(arguments, input, options, kept(arguments, files.as_ref()));
+    let mapped = processes::spread(arguments, input, options, means(arguments, files.as_ref())?);
     let mut mapped = mapped.map_err(|failure| failure.of_checkpoint(names.as_ref()))?;
     if arguments.with_trajectory {
         mapped.carry_trajectories(input);
@@ -124,8 +126,11 @@ fn checkpoint_files(file: &Path) -> [PathBuf; 2] {
     [file.to_owned(), readings.into()]
 }
 
-/// How the search is kept, if it is.
-fn kept(arguments: &MapArguments, files: Option<&[Arc<CheckpointFile>; 2]>) -> Means<'static> {
+/// How the search is kept, and what does not fit into memory, as far as that was asked for.
+fn means(
+    arguments: &MapArguments,
+    files: Option<&[Arc<CheckpointFile>; 2]>,
+) -> Result<Means<'static>, Failure> {
     let every = Duration::try_from_secs_f64(arguments.checkpoint_every).unwrap_or(Duration::MAX);
     let [checkpoints, reading_checkpoints] = match files {
         Some(files) => files.each_ref().map(|file| {
@@ -134,7 +139,11 @@ fn kept(arguments: &MapArguments, files: Option<&[Arc<CheckpointFile>; 2]>) -> M
         }),
         None => [None, None],
     };
-    Means { checkpoints, reading_checkpoints, searchers: None }
+    let store = match &arguments.spill {
+        Some(folder) => Some(Arc::new(SpillFile::in_folder(folder)?) as Arc<dyn Store>),
+        None => None,
+    };
+    Ok(Means { checkpoints, reading_checkpoints, store, searchers: None })
 }
 
 /// Takes part in a search whose answer another process gives.

@@ -33,6 +33,11 @@ pub(super) fn is_helper(arguments: &MapArguments) -> bool {
     arguments.processes.process.is_some_and(|process| process > 0)
 }
 
+/// Whether several processes are asked for.
+pub(crate) fn is_spread(arguments: &MapArguments) -> bool {
+    arguments.processes.workers.is_some() || arguments.processes.hosts.is_some()
+}
+
 /// Searches, by the processes that were asked for.
 pub(super) fn spread(
     arguments: &MapArguments,
@@ -67,7 +72,7 @@ impl Processes {
     /// If the search cannot be spread, the addresses are none, or processes cannot be started.
     fn of(arguments: &MapArguments, options: &MappingOptions) -> Result<Option<Self>, Failure> {
         let asked = &arguments.processes;
-        if asked.workers.is_none() && asked.hosts.is_none() {
+        if !is_spread(arguments) {
             return Ok(None);
         }
         if matches!(options.search.method, Some(SearchMethod::BestFirst | SearchMethod::PosteriorBestFirst)) {
