@@ -113,8 +113,11 @@ impl Elsewhere {
     }
 }
 
+/// A page as it is read.
+type Read<A> = (<A as Pack>::Read, Vec<PackedLeaf<<A as Appraise>::Key, <A as Pack>::Packed>>);
+
 /// The leaves that a page has. `None` if it is none.
 pub(crate) fn unwritten<A: Pack>(page: &[u8], axioms: &Axioms) -> Option<Vec<Leaf<A>>> {
-    let (shared, packed): (A::Read, Vec<PackedLeaf<A::Key, A::Packed>>) = read(page)?;
+    let (shared, packed): Read<A> = read(page)?;
     packed.into_iter().map(|leaf| leaf.unpack(&shared, axioms)).collect()
 }

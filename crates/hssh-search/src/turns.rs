@@ -107,6 +107,9 @@ impl<A: Appraise> Turn<A> {
 /// About how long a turn takes by preference, and by posterior.
 const TIMES: [Duration; 2] = [Duration::from_micros(3), Duration::from_micros(500)];
 
+/// What came of turns, as it is read.
+type Answer<A> = (<A as Pack>::Read, Vec<PackedTaken<<A as Appraise>::Key, <A as Pack>::Packed>>);
+
 /// Takes turns; what came of each, in their order. `here` takes those that fall to this process.
 pub(crate) fn take_all<A: Pack>(
     turns: &[Turn<A>],
@@ -124,7 +127,7 @@ pub(crate) fn take_all<A: Pack>(
         written(vec![Asked::Turns as u8], &(paths, &shared, packed))
     };
     let hear = |turns: &[Turn<A>], answer: &[u8]| {
-        let (shared, packed): (A::Read, Vec<PackedTaken<A::Key, A::Packed>>) = read(answer)?;
+        let (shared, packed): Answer<A> = read(answer)?;
         if packed.len() != turns.len() {
             return None;
         }

@@ -31,22 +31,22 @@ const CASES: [Case; 7] = [
         arguments: &["--search", "count", "--max-places", "36", "--travels", "28"],
     },
     Case {
-        name: "breadth-first, 5×5, 23 travels",
+        name: "breadth-first, 5×5, 31 travels",
         side: 5,
         measured: false,
-        arguments: &["--search", "breadth-first", "--travels", "23"],
+        arguments: &["--search", "breadth-first", "--travels", "31"],
     },
     Case {
-        name: "proof, 5×5, 26 places, closed",
-        side: 5,
+        name: "proof, 6×6, 36 places, closed",
+        side: 6,
         measured: false,
-        arguments: &["--search", "proof", "--max-places", "26", "--closed"],
+        arguments: &["--search", "proof", "--max-places", "36", "--closed", "--max-nodes", "2000000"],
     },
     Case {
-        name: "posterior, 8×8, rest 1e-12",
+        name: "posterior, 8×8",
         side: 8,
         measured: true,
-        arguments: &["--search", "posterior", "--rest", "1e-12", "--best", "20"],
+        arguments: &["--search", "posterior", "--max-nodes", "150000"],
     },
     Case {
         name: "posterior level by level, 6×6, 17 travels",
@@ -55,10 +55,10 @@ const CASES: [Case; 7] = [
         arguments: &["--search", "posterior-breadth-first", "--travels", "17"],
     },
     Case {
-        name: "posterior proof, 5×5",
-        side: 5,
+        name: "posterior proof, 8×8",
+        side: 8,
         measured: true,
-        arguments: &["--search", "posterior-proof"],
+        arguments: &["--search", "posterior-proof", "--max-nodes", "60000"],
     },
 ];
 
