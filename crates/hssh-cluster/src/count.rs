@@ -1,29 +1,22 @@
 //! Exhaustive counting over processes.
 
-use std::any::Any;
 use std::collections::VecDeque;
-use std::net::TcpStream;
+use std::sync::Arc;
 use std::sync::mpsc::{self, Receiver, RecvTimeoutError, Sender};
-use std::sync::{Arc, Mutex, PoisonError};
-use std::thread;
 use std::time::Duration;
 
 use hssh_causal::Exploration;
 use hssh_search::{BranchCounter, CountedBranch, MapperBuilder, Monitor, Report, SharedCount, StopReason};
-use timely::communication::Hooks;
-use timely::communication::allocator::zero_copy::initialize::initialize_networking_from_sockets;
-use timely::communication::allocator::{AllocatorBuilder, ProcessBuilder};
 use timely::dataflow::channels::pact::Exchange;
 use timely::dataflow::operators::generic::operator::Operator;
 use timely::dataflow::operators::{ConnectLoop, Feedback};
-use timely::execute::execute_from;
 use timely::worker::Worker;
-use timely::{CommunicationConfig, WorkerConfig};
 
 use crate::connect::connect;
 use crate::error::ClusterError;
 use crate::hosts::Hosts;
 use crate::loss::{is_lost, notice_losses};
+use crate::run::run;
 
 /// For so long a branch is counted before its state goes back.
 const TURN: Duration = Duration::from_millis(50);
@@ -63,22 +56,7 @@ pub fn count(
     };
     let (ended, end) = mpsc::channel();
     let connections = connect(hosts, counter.identity(), monitor)?;
-    let seats = Mutex::new(Some((counter, shared, ended)));
-    let running = thread::Builder::new().name("timely:run".to_owned()).spawn({
-        let hosts = hosts.clone();
-        move || {
-            let (workers, guard) = workers(connections, &hosts)?;
-            let run = move |worker: &mut Worker| {
-                // There is one worker in each process.
-                let seat = seats.lock().unwrap_or_else(PoisonError::into_inner).take();
-                if let Some((counter, shared, ended)) = seat {
-                    take_part(worker, counter, shared, ended);
-                }
-            };
-            execute_from(workers, guard, WorkerConfig::default(), run).map(|guards| drop(guards.join()))
-        }
-    });
-    let running = running.map_err(|error| ClusterError::Connect(error.to_string()))?;
+    let running = run(hosts, connections, |worker| take_part(worker, counter, shared, ended))?;
     loop {
         match end.recv_timeout(LOOK) {
             Ok(end) => {
@@ -108,21 +86,6 @@ fn last_words(end: &Receiver<End>, hosts: &Hosts) -> End {
         return end;
     }
     Err(ClusterError::Lost)
-}
-
-/// The one worker of this process, and what has to live as long as it.
-fn workers(
-    connections: Vec<Option<TcpStream>>,
-    hosts: &Hosts,
-) -> Result<(Vec<AllocatorBuilder>, Box<dyn Any + Send>), String> {
-    if connections.len() == 1 {
-        return CommunicationConfig::Thread.try_build();
-    }
-    let hooks = Hooks::default();
-    let inside = ProcessBuilder::new_typed_vector(1, hooks.refill.clone(), None);
-    let joined = initialize_networking_from_sockets(inside, connections, hosts.process(), 1, hooks);
-    let (workers, guard) = joined.map_err(|error| error.to_string())?;
-    Ok((workers.into_iter().map(AllocatorBuilder::Tcp).collect(), Box::new(guard)))
 }
 
 /// Gives out branches, if this is the first process, and counts.

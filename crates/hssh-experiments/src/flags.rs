@@ -38,7 +38,7 @@ xflags::xflags! {
             /// Print JSON instead of tables.
             optional --json
         }
-        /// Times the mapper: `speed`, `faces` or `proof`, all three if not given; `long` explorations; `kills` and the checkpoints that outlive them; `memory` beside its limit; `processes` that count together; or pose graphs: `graphs`, `closures`, `wrong-closures`.
+        /// Times the mapper: `speed`, `faces` or `proof`, all three if not given; `long` explorations; `kills` and the checkpoints that outlive them; `memory` beside its limit; `processes` that search together; the `size` of trees that cannot be counted; or pose graphs: `graphs`, `closures`, `wrong-closures`.
         cmd bench {
             /// Which one.
             optional name: String

@@ -8,6 +8,8 @@ use hssh_topology::{Axioms, AxiomsError, Preference, ReadingModelError};
 use crate::checkpoint::{CheckpointError, Checkpoints};
 use crate::constraints::{ConstraintError, VisitConstraints};
 use crate::crew::ThreadsError;
+use crate::elsewhere::Store;
+use crate::helpers::Helpers;
 use crate::limits::{Limits, Monitor};
 use crate::order::{Goal, Order, Proving};
 use crate::posterior::{Appearance, MapPrior, ModelError, PosteriorModel};
@@ -71,6 +73,9 @@ pub enum MapperError {
     /// There is a checkpoint that the search cannot go on from.
     #[error(transparent)]
     Checkpoint(#[from] CheckpointError),
+    /// Open hypotheses that were kept elsewhere cannot be read any more.
+    #[error("open hypotheses that were kept on disk cannot be read any more: {0}")]
+    Lost(String),
     /// No threads.
     #[error(transparent)]
     Threads(#[from] ThreadsError),
@@ -91,6 +96,8 @@ pub struct MapperBuilder {
     pub(crate) threads: usize,
     pub(crate) monitor: Arc<Monitor>,
     pub(crate) checkpoints: Option<Checkpoints>,
+    pub(crate) helpers: Option<Arc<dyn Helpers>>,
+    pub(crate) store: Option<Arc<dyn Store>>,
 }
 
 impl Default for MapperBuilder {
@@ -107,6 +114,8 @@ impl Default for MapperBuilder {
             threads: 1,
             monitor: Arc::default(),
             checkpoints: None,
+            helpers: None,
+            store: None,
         }
     }
 }
@@ -191,6 +200,19 @@ impl MapperBuilder {
     #[must_use]
     pub fn checkpoints(self, checkpoints: Checkpoints) -> Self {
         MapperBuilder { checkpoints: Some(checkpoints), ..self }
+    }
+
+    /// Other processes that help the search of a whole exploration. The result does not depend on how many they are.
+    #[must_use]
+    pub fn helpers(self, helpers: Arc<dyn Helpers>) -> Self {
+        MapperBuilder { helpers: Some(helpers), ..self }
+    }
+
+    /// Where open hypotheses are kept for which the limit on memory leaves no room: then the search goes on, with the same result. Of the searches
+    /// level by level and of counts nothing is kept there.
+    #[must_use]
+    pub fn spilling(self, store: Arc<dyn Store>) -> Self {
+        MapperBuilder { store: Some(store), ..self }
     }
 
     /// What is sought, and in which order, in a few words.

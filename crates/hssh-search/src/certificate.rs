@@ -16,6 +16,7 @@ use crate::experience::Experience;
 use crate::fingerprint::fingerprint;
 use crate::leaf::{Appraise, Leaf};
 use crate::order::{Goal, Order};
+use crate::pack::Pack;
 use crate::posterior::{ByPosterior, MapPrior, Metrical, PlacePrior};
 use crate::preference::ByPreference;
 use crate::report::Score;
@@ -47,7 +48,7 @@ pub(crate) fn by_preference(
         GenusRank::First => "first",
         GenusRank::Last => "last",
     };
-    let mut entries = entries(engine, engine.frontier.leaves());
+    let mut entries = entries(engine, &open(engine));
     // Of a map the genus is told, whether or not it counts.
     let travels = engine.travels();
     let mut cursor = Cursor::new(experience);
@@ -77,8 +78,7 @@ pub(crate) fn by_posterior(
     context: Context<'_>,
 ) -> Option<String> {
     let Engine { appraiser, tree, .. } = engine;
-    let open: Vec<Leaf<ByPosterior>> = engine.frontier.leaves().cloned().collect();
-    let open = context.crew.map(&open, context.experience, |cursor, leaf| {
+    let open = context.crew.map(&open(engine), context.experience, |cursor, leaf| {
         let (mut leaf, mut laid_out) = (leaf.clone(), leaf.clone());
         appraiser.settle(&mut laid_out, cursor, tree, context)?;
         // What was estimated is told as long as it is less: of layouts bent out of all measure a lower one may exist.
@@ -126,8 +126,15 @@ pub(crate) fn by_posterior(
         let _ = writeln!(after, "trust lowest-minimum {}", engine.solved + open.len() as u64);
     }
     let best = best.map(|best| appraiser.score(best));
-    text += &body(tree, &entries(engine, open.iter()), best, &after);
+    text += &body(tree, &entries(engine, &open), best, &after);
     Some(text)
+}
+
+/// All hypotheses that are not expanded.
+fn open<A: Pack>(engine: &Engine<A>) -> Vec<Leaf<A>> {
+    let mut open = Vec::new();
+    engine.frontier.visit(|leaf| open.push(leaf.clone()));
+    open
 }
 
 /// The probability of all maps that were not found, at most.
@@ -168,7 +175,7 @@ fn head(options: &MapperBuilder, exploration: &Exploration) -> String {
 }
 
 /// What is said of each node: what was found, what is open, and that all others were expanded.
-fn entries<'a, A: Appraise + 'a>(engine: &Engine<A>, open: impl Iterator<Item = &'a Leaf<A>>) -> Vec<Entry> {
+fn entries<A: Pack>(engine: &Engine<A>, open: &[Leaf<A>]) -> Vec<Entry> {
     let Engine { appraiser, tree, found, rejected, .. } = engine;
     let mut entries = vec![Entry::Expanded; tree.len()];
     let travels = engine.travels();

@@ -1,11 +1,12 @@
-//! The threads that work on a frontier together.
+//! The threads, and the other processes, that work on a frontier together.
 
-use std::sync::Mutex;
+use std::sync::{Arc, Mutex};
 
 use rayon::prelude::*;
 
 use crate::cursor::Cursor;
 use crate::experience::Experience;
+use crate::helpers::Helpers;
 
 /// The operating system gave no threads.
 #[derive(Debug, thiserror::Error)]
@@ -32,6 +33,8 @@ pub(crate) struct Crew {
     /// None if there is but one thread.
     pool: Option<rayon::ThreadPool>,
     cursors: Mutex<Vec<Cursor>>,
+    /// Other processes, if there are any.
+    helpers: Option<Arc<dyn Helpers>>,
 }
 
 impl Crew {
@@ -44,7 +47,17 @@ impl Crew {
             1 => None,
             threads => Some(rayon::ThreadPoolBuilder::new().num_threads(threads).build()?),
         };
-        Ok(Crew { pool, cursors: Mutex::new(Vec::new()) })
+        Ok(Crew { pool, cursors: Mutex::new(Vec::new()), helpers: None })
+    }
+
+    /// The same, with other processes.
+    pub(crate) fn helped(self, helpers: Option<Arc<dyn Helpers>>) -> Self {
+        Crew { helpers: helpers.filter(|helpers| helpers.count() > 0), ..self }
+    }
+
+    /// The other processes, if there are any.
+    pub(crate) fn helpers(&self) -> Option<&dyn Helpers> {
+        self.helpers.as_deref()
     }
 
     /// Applies `work` to each piece, each time with a cursor; the results in the order of the pieces.

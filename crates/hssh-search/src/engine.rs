@@ -6,17 +6,27 @@ use serde::{Deserialize, Serialize};
 use crate::branch::Branch;
 use crate::context::Context;
 use crate::cursor::Cursor;
+use crate::elsewhere::Elsewhere;
 use crate::fringe::Fringe;
 use crate::frontier::Frontier;
 use crate::leaf::{Appraise, Growth, Leaf, matters};
 use crate::limits::StopReason;
 use crate::order::{Goal, Order, Proving};
+use crate::pack::Pack;
 use crate::tally::Tally;
 use crate::tree::Tree;
 use crate::visit::MeasurementError;
 
 /// Of the open hypotheses that got farthest, so many are laid out at most to find the best.
 const MOST_SETTLED: usize = 64;
+
+/// Sending leaves away is worth while if it frees this part of what a search holds.
+const WORTHWHILE: u64 = 16;
+
+/// The process may take this part more of what it may before memory that was freed must have been used anew…
+const USED_ANEW: f64 = 0.02;
+/// …and no more in all.
+const TOO_MUCH: f64 = 1.05;
 
 /// How far the sweeps are.
 #[derive(Clone, Copy, Debug, Default, Serialize, Deserialize)]
@@ -69,7 +79,7 @@ pub(crate) struct Found<A: Appraise> {
 /// A search under way. What was observed so far is explained by [`advance`](Self::advance); after
 /// [`observe`](Self::observe) it goes on from what it has.
 #[derive(Debug)]
-pub(crate) struct Engine<A: Appraise> {
+pub(crate) struct Engine<A: Pack> {
     pub(crate) appraiser: A,
     pub(crate) order: Order,
     pub(crate) goal: Goal,
@@ -99,6 +109,8 @@ pub(crate) struct Engine<A: Appraise> {
     pub(crate) reach: Option<A::Key>,
     /// Bytes of all leaves.
     pub(crate) bytes: u64,
+    /// When leaves were sent away last: the bytes of tree and leaves, and the part that the process took of what it may.
+    room: (u64, f64),
     /// Cursors that wait where they were used last.
     pub(crate) cursors: Vec<Cursor>,
     /// How many travels the search knows of.
@@ -107,7 +119,7 @@ pub(crate) struct Engine<A: Appraise> {
     is_begun: bool,
 }
 
-impl<A: Appraise> Engine<A> {
+impl<A: Pack> Engine<A> {
     /// A search that has not begun.
     ///
     /// # Errors
@@ -117,6 +129,7 @@ impl<A: Appraise> Engine<A> {
         order: Order,
         goal: Goal,
         proving: Proving,
+        elsewhere: Option<Elsewhere>,
         context: Context<'_>,
     ) -> Result<Self, MeasurementError> {
         let mut engine = Engine {
@@ -126,7 +139,7 @@ impl<A: Appraise> Engine<A> {
             proving,
             tree: Tree::new(),
             tally: Tally::new(),
-            frontier: Frontier::new(),
+            frontier: Frontier::new(elsewhere),
             fringe: Fringe::default(),
             growing: None,
             shown: None,
@@ -138,6 +151,7 @@ impl<A: Appraise> Engine<A> {
             unsolvable: None,
             reach: None,
             bytes: 0,
+            room: (0, 0.0),
             cursors: Vec::new(),
             travels: 0,
             is_begun: false,
@@ -204,9 +218,32 @@ impl<A: Appraise> Engine<A> {
         self.travels
     }
 
-    /// Why the search has to stop now, if it has to.
-    pub(crate) fn stop(&self, context: Context<'_>) -> Option<StopReason> {
-        context.stop(&self.tree, self.bytes)
+    /// Why the search has to stop now, if it has to. If memory is what it lacks, it sends away what it can.
+    pub(crate) fn stop(&mut self, context: Context<'_>) -> Option<StopReason> {
+        if self.frontier.lost().is_some() {
+            return Some(StopReason::Interrupted);
+        }
+        let here = self.bytes - self.frontier.bytes_away();
+        let reason = context.stop(&self.tree, here)?;
+        let goes_on = reason == StopReason::MemoryLimit && self.send_away(context);
+        (!goes_on).then_some(reason)
+    }
+
+    /// Makes room in memory; whether the search can go on.
+    ///
+    /// What is sent away leaves memory to this process that it takes before it asks the system for more: only when that must be used up,
+    /// there is less room again.
+    fn send_away(&mut self, context: Context<'_>) -> bool {
+        let held = |engine: &Self| engine.tree.bytes() + engine.bytes - engine.frontier.bytes_away();
+        let (before, taken) = (held(self), context.watch.taken().unwrap_or(0.0));
+        if before < self.room.0 && taken < self.room.1 + USED_ANEW {
+            return true;
+        }
+        let appraiser = &self.appraiser;
+        let sent = self.frontier.send_away(|leaf| appraiser.bytes(leaf));
+        tracing::debug!(sent, before, taken, "leaves sent away");
+        self.room = (before, taken);
+        sent > before / WORTHWHILE && taken < TOO_MUCH
     }
 
     pub(crate) fn lend_cursor(&mut self, context: Context<'_>) -> Cursor {
@@ -341,31 +378,39 @@ impl<A: Appraise> Engine<A> {
         self.shown.as_ref().unwrap_or(&self.fringe)
     }
 
-    /// The hypotheses that are no maps of everything yet, or maps that were not looked at yet.
-    fn open(&self) -> impl Iterator<Item = &Leaf<A>> {
-        let is_accepted =
-            |leaf: &&Leaf<A>| leaf.depth() < self.travels || self.goal.accepts(leaf.is_closed());
-        self.frontier.leaves().filter(is_accepted)
+    /// Whether a hypothesis is no map of everything yet, or one that was not looked at yet.
+    fn is_open(&self, leaf: &Leaf<A>) -> bool {
+        leaf.depth() < self.travels || self.goal.accepts(leaf.is_closed())
     }
 
     /// How many travels the open hypotheses explain that got farthest.
     pub(crate) fn deepest(&self) -> Option<usize> {
-        self.open().map(Leaf::depth).max()
+        let mut deepest = None;
+        self.frontier.visit(|leaf| {
+            if self.is_open(leaf) {
+                deepest = deepest.max(Some(leaf.depth()));
+            }
+        });
+        deepest
     }
 
     /// The best one of the open hypotheses that got farthest, settled; none if none explains a travel.
     pub(crate) fn best_of_deepest(&self, context: Context<'_>) -> Option<Leaf<A>> {
         let deepest = self.deepest().filter(|&travels| travels > 0)?;
-        let mut leaves: Vec<&Leaf<A>> = self.open().filter(|leaf| leaf.depth() == deepest).collect();
+        let mut leaves: Vec<Leaf<A>> = Vec::new();
+        self.frontier.visit(|leaf| {
+            if self.is_open(leaf) && leaf.depth() == deepest {
+                leaves.push(leaf.clone());
+            }
+        });
         leaves.sort_unstable_by_key(|leaf| (leaf.key, leaf.node));
         let mut cursor = Cursor::new(context.experience);
         let mut best: Option<Leaf<A>> = None;
-        for (number, &leaf) in leaves.iter().enumerate() {
+        for (number, mut leaf) in leaves.into_iter().enumerate() {
             let is_beaten = best.as_ref().is_some_and(|best| best.key <= leaf.key);
             if is_beaten || (best.is_some() && number >= MOST_SETTLED) {
                 break;
             }
-            let mut leaf = leaf.clone();
             let is_settled = self.appraiser.is_settled(&leaf)
                 || self.appraiser.settle(&mut leaf, &mut cursor, &self.tree, context).is_ok();
             if is_settled && best.as_ref().is_none_or(|best| leaf.key < best.key) {
@@ -377,7 +422,9 @@ impl<A: Appraise> Engine<A> {
 
     /// The least that any map can be worth that was not found; nothing if there is none, or if nothing is known.
     pub(crate) fn open_bound(&self) -> Option<A::Key> {
-        self.frontier.leaves().filter_map(|leaf| self.appraiser.bound(leaf)).min()
+        let mut least: Option<A::Key> = None;
+        self.frontier.visit(|leaf| least = least.into_iter().chain(self.appraiser.bound(leaf)).min());
+        least
     }
 
     /// The probability of everything that is still open, at most, where there are probabilities.
@@ -386,15 +433,18 @@ impl<A: Appraise> Engine<A> {
             return None;
         }
         let found = log_sum(self.found.iter().map(|found| -self.appraiser.nats(found.leaf.key)));
-        let open = log_sum(self.frontier.leaves().map(|leaf| self.appraiser.log_mass(leaf)));
+        let mut open = Vec::new();
+        self.frontier.visit(|leaf| open.push(self.appraiser.log_mass(leaf)));
+        let open = log_sum(open.into_iter());
         Some(if open == f64::NEG_INFINITY { 0.0 } else { 1.0 / (1.0 + (found - open).exp()) })
     }
 }
 
-/// ln Σ eˣ.
+/// ln Σ eˣ, in whatever order they come.
 pub(crate) fn log_sum(logs: impl Iterator<Item = f64>) -> f64 {
-    let logs: Vec<f64> = logs.collect();
-    let most = logs.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+    let mut logs: Vec<f64> = logs.collect();
+    logs.sort_unstable_by(f64::total_cmp);
+    let most = logs.last().copied().unwrap_or(f64::NEG_INFINITY);
     if most == f64::NEG_INFINITY {
         most
     } else {

@@ -3,15 +3,15 @@
 use std::ops::Range;
 use std::time::{Duration, Instant};
 
-use hssh_topology::{Measure, Outcome, Preference, Removals, Step};
+use hssh_topology::{Measure, Outcome, Preference, Removals};
 use serde::{Deserialize, Serialize};
 
 use crate::context::Context;
 use crate::limits::StopReason;
 use crate::report::{FinalCounts, LevelCounts, RankedMap};
-use crate::step::{Look, successors};
+use crate::steps::step_all;
 use crate::tally::Tally;
-use crate::tree::{Child, NodeId, Tree};
+use crate::tree::{NodeId, Tree};
 
 /// Nodes that one thread takes at a time.
 const PIECE: u32 = 512;
@@ -51,13 +51,6 @@ impl Default for Fringe {
     }
 }
 
-/// The successors of one piece of the fringe.
-struct Piece {
-    children: Vec<Child>,
-    outcomes: Vec<Outcome>,
-    removals: Removals,
-}
-
 impl Fringe {
     /// Those nodes, which explain so many travels.
     pub(crate) fn new(nodes: Range<u32>, depth: usize) -> Self {
@@ -87,27 +80,17 @@ impl Fringe {
                 return Err(reason);
             }
             let together = pieces(begun.next..self.nodes.end, PIECES_AT_ONCE);
-            let before: &Tree = tree;
-            let grown = context.crew.map(&together, context.experience, |cursor, piece| {
-                let (mut children, mut step) = (Vec::new(), Step::default());
-                let mut grow = |node| {
-                    let keep = |child, _: &_| children.push(child);
-                    successors(cursor, node, before, context, &mut step, Look::Outside, keep)
-                };
-                let outcomes = piece.clone().map(|node| grow(NodeId::new(node))).collect();
-                Piece { children, outcomes, removals: step.removals }
-            });
-            for (piece, grown) in together.iter().zip(grown) {
-                for (node, outcome) in piece.clone().zip(grown.outcomes) {
-                    tree.set_outcome(NodeId::new(node), outcome);
+            for stepped in step_all(&together, tree, context) {
+                for outcome in stepped.outcomes {
+                    tree.set_outcome(NodeId::new(begun.next), outcome);
                     begun.refuted += u64::from(outcome == Outcome::Refuted);
+                    begun.next += 1;
                 }
-                context.watch.add_nodes(grown.children.len() as u64);
-                for child in grown.children {
+                context.watch.add_nodes(stepped.children.len() as u64);
+                for child in stepped.children {
                     tree.push(child);
                 }
-                begun.removals += grown.removals;
-                begun.next = piece.end;
+                begun.removals += stepped.removals;
             }
         }
         if let Some(reason) = context.watch.excess(tree.len() as u64, tree.bytes()) {

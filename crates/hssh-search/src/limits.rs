@@ -160,6 +160,11 @@ impl Watch {
         first.is_some_and(|first| Instant::now() >= first).then_some(StopReason::TimeLimit)
     }
 
+    /// Stops the search soon.
+    pub(crate) fn interrupt(&self) {
+        self.monitor.interrupt();
+    }
+
     /// The same, but the search stops at that moment as if its time were over, if it is not over before.
     pub(crate) fn pausing(&self, pause: Option<Instant>) -> Self {
         Watch { pause, ..self.clone() }
@@ -197,6 +202,11 @@ impl Watch {
     /// Whether there is a limit on nodes.
     pub(crate) fn limits_nodes(&self) -> bool {
         self.limits.nodes.is_some()
+    }
+
+    /// Which part of what it may the process takes; nothing if that is not limited, or not known.
+    pub(crate) fn taken(&self) -> Option<f64> {
+        Some(self.monitor.taken()? as f64 / self.limits.bytes? as f64)
     }
 
     /// Whether that many nodes or bytes are too many.

@@ -1,6 +1,5 @@
 //! The on-line mapper: one visit at a time, its maps at any time.
 
-use std::io;
 use std::time::Instant;
 
 use hssh_causal::Exploration;
@@ -10,17 +9,20 @@ use hssh_topology::{Hypothesis, Position, Preference, Star};
 use crate::branch::Branch;
 use crate::builder::{MapperBuilder, MapperError, Objective};
 use crate::certificate;
-use crate::checkpoint::{Identity, Keeping, Pack, Pen, State, Unsealed, write_state};
+use crate::checkpoint::{Identity, Keeping, State, Unsealed};
 use crate::context::Context;
 use crate::crew::Crew;
 use crate::cursor::Cursor;
 use crate::distinction::{Distinction, distinguish};
+use crate::elsewhere::Elsewhere;
 use crate::engine::Engine;
 use crate::experience::Experience;
+use crate::kept::kept;
 use crate::leaf::Appraise;
 use crate::limits::{Limits, StopReason, Watch};
 use crate::measured::MeasuredTravel;
 use crate::order::Order;
+use crate::pack::Pack;
 use crate::posterior::{ByPosterior, LINEAR_TRUST, Metrical, PosteriorModel};
 use crate::preference::ByPreference;
 use crate::report::{FinalCounts, Proof, RankedMap, Report};
@@ -32,6 +34,13 @@ use crate::visit::{MeasurementError, Visit, VisitError};
 enum Search {
     Preference(Box<Engine<ByPreference>>),
     Posterior(Box<Engine<ByPosterior>>),
+}
+
+/// Who appraises in a search for either objective.
+#[derive(Clone, Copy, Debug)]
+pub(crate) enum Searching<'a> {
+    Preference(&'a ByPreference),
+    Posterior(&'a ByPosterior),
 }
 
 /// Does the same with the engine of either search.
@@ -81,6 +90,9 @@ impl MapperBuilder {
         let mut mapper = Mapper::new(self, Experience::from(exploration), &watch)?;
         mapper.begin(&keeping)?;
         mapper.go_on(&watch, &mut keeping);
+        if let Some(problem) = with_engine!(&mapper.search, engine => engine.frontier.lost()) {
+            return Err(MapperError::Lost(problem.to_string()));
+        }
         match mapper.unsolvable() {
             Some((travels, problem)) if mapper.is_empty() => {
                 Err(MapperError::Unsolvable { travels, problem: *problem })
@@ -154,21 +166,25 @@ impl Mapper {
         if let Objective::Posterior(model) = options.objective {
             model.check()?;
         }
-        let crew = Crew::new(options.threads)?;
+        let crew = Crew::new(options.threads)?.helped(options.helpers.clone());
         let asks_for_boundaries =
             options.objective.asks_for_boundaries() || options.axioms.ask_for_boundaries();
         let experience = experience.with_boundaries(asks_for_boundaries);
         let experience = experience.with_constraints(options.constraints.clone());
         let context = Context { experience: &experience, axioms: &options.axioms, crew: &crew, watch };
         let MapperBuilder { order, goal, proving, .. } = options;
+        let store = options.store.clone();
+        let elsewhere = store.map(|store| Elsewhere::new(store, options.axioms));
         let search = match options.objective {
             Objective::Preference(preference) => {
                 let appraiser = ByPreference { preference, order };
-                Search::Preference(Box::new(Engine::new(appraiser, order, goal, proving, context)?))
+                Search::Preference(Box::new(Engine::new(
+                    appraiser, order, goal, proving, elsewhere, context,
+                )?))
             }
             Objective::Posterior(model) => {
                 let appraiser = ByPosterior::new(model, options.appearance.clone(), order);
-                Search::Posterior(Box::new(Engine::new(appraiser, order, goal, proving, context)?))
+                Search::Posterior(Box::new(Engine::new(appraiser, order, goal, proving, elsewhere, context)?))
             }
         };
         let searched = experience.observations.len();
@@ -230,7 +246,7 @@ impl Mapper {
         with_engine!(search, engine => {
             let read = |unsealed: &mut Unsealed<'_>| {
                 let before: f64 = unsealed.take()?;
-                let state = State::read(unsealed, context.travels())?;
+                let state = State::read(unsealed, engine.frontier.elsewhere.as_ref(), context)?;
                 Ok((state.nodes(), (before, state)))
             };
             if let Some((before, state)) = keeping.begin(read)? {
@@ -417,6 +433,15 @@ impl Mapper {
         &self.experience
     }
 
+    /// What its search is given, and who appraises.
+    pub(crate) fn searching<'a>(&'a self, watch: &'a Watch) -> (Context<'a>, Searching<'a>) {
+        let searching = match &self.search {
+            Search::Preference(engine) => Searching::Preference(&engine.appraiser),
+            Search::Posterior(engine) => Searching::Posterior(&engine.appraiser),
+        };
+        (self.context(watch), searching)
+    }
+
     /// What every search is given.
     fn context<'a>(&'a self, watch: &'a Watch) -> Context<'a> {
         let Mapper { experience, crew, options, .. } = self;
@@ -425,7 +450,7 @@ impl Mapper {
 
     /// The maps that were found, ranked, with counts over all of them; if a limit came before the first, the
     /// best hypothesis of those that got farthest.
-    fn survey<A: Appraise>(
+    fn survey<A: Pack>(
         &self,
         engine: &Engine<A>,
         preference: Preference,
@@ -452,7 +477,7 @@ impl Mapper {
         (counts, maps)
     }
 
-    fn report_on<A: Appraise>(&self, engine: &Engine<A>, finals: FinalCounts) -> Report {
+    fn report_on<A: Pack>(&self, engine: &Engine<A>, finals: FinalCounts) -> Report {
         let levels = engine.tally.levels.clone();
         let order = self.options.order;
         let has_bound = A::WEIGHS || matches!(order, Order::Cyclic | Order::Proof);
@@ -480,33 +505,8 @@ impl Mapper {
     }
 }
 
-/// Searches on, and keeps checkpoints on the way: what `head` writes, and the state of the search.
-fn kept<A: Pack>(
-    engine: &mut Engine<A>,
-    context: Context<'_>,
-    keeping: &mut Keeping,
-    head: impl Fn(&mut Pen<'_>) -> io::Result<()>,
-) -> StopReason {
-    let limits = engine.limits(context.watch);
-    let stop = loop {
-        let watch = &limits.pausing(keeping.due);
-        let stop = engine.advance(Context { watch, ..context });
-        if !stop.is_complete() {
-            keeping.keep(|pen| {
-                head(pen)?;
-                write_state(engine, pen)
-            });
-        }
-        if !watch.is_pause(stop) {
-            break stop;
-        }
-    };
-    engine.end(stop, context);
-    stop
-}
-
 /// What is known about the answer of a search whose keys are bounds.
-pub(crate) fn proof<A: Appraise>(engine: &Engine<A>) -> Proof {
+pub(crate) fn proof<A: Pack>(engine: &Engine<A>) -> Proof {
     let Engine { appraiser, found, factors, reach, .. } = engine;
     let unsolvable = engine.unsolvable.is_some();
     let best = found.first().map(|found| found.leaf.key);

@@ -4,14 +4,14 @@
 //! (see `Measure::bound`), so that every map below a node ranks no better than the node's bound.
 
 use hssh_metrics::SolveError;
-use hssh_topology::{Measure, Preference, Rank, Step, TopologicalMap};
+use hssh_topology::{Axioms, Measure, Preference, Rank, Step, TopologicalMap};
 
-use crate::checkpoint::Pack;
 use crate::context::Context;
 use crate::cursor::Cursor;
 use crate::leaf::{Appraise, Grown, Growth, Leaf};
 use crate::limits::StopReason;
 use crate::order::Order;
+use crate::pack::Pack;
 use crate::report::Score;
 use crate::step::{Look, successors};
 use crate::tree::{NodeId, Tree};
@@ -146,7 +146,7 @@ impl Pack for ByPreference {
         *closed_ends
     }
 
-    fn unpack(closed_ends: u32, (): &()) -> Option<u32> {
+    fn unpack(closed_ends: u32, (): &(), _: &Axioms) -> Option<u32> {
         Some(closed_ends)
     }
 }

@@ -186,6 +186,16 @@ impl Tree {
         self.branch(node).into_iter().filter_map(|node| self.derivation(node)).collect()
     }
 
+    /// The choice that led to a node, with the gateways that the robot left and came by, as far as it matters; `None` for the root.
+    pub(crate) fn choice(&self, node: NodeId) -> Option<(Derivation, MapOlp, MapOlp)> {
+        let derivation = self.derivation(node)?;
+        let Node { map, arrival, .. } = self.nodes[node.index()];
+        // Only a link that is added has to say where from.
+        let is_added = derivation != Derivation::Predicted;
+        let exit = if is_added { self.growth(map).exit } else { MapOlp::new(0) };
+        Some((derivation, exit, arrival))
+    }
+
     /// Whether a tree that was read is one, of so many travels.
     pub(crate) fn is_sound(&self, travels: usize) -> bool {
         let Tree { nodes, outcomes, maps } = self;

@@ -129,7 +129,6 @@ fn help(error: &PipelineError) -> &'static str {
         PipelineError::Elsewhere(_) => {
             "\nhelp: with --checkpoint FILE the same command goes on from what was counted, by any number of processes"
         }
-        PipelineError::KeptReadings => "\nhelp: leave out --checkpoint, or --readings",
         PipelineError::ClosedOfAll => "\nhelp: --closed goes with --search posterior, best-first and proof",
         PipelineError::GenusOfPosterior => "\nhelp: --planar and --max-genus bound it in every search",
         _ => "",
@@ -164,11 +163,14 @@ impl From<PipelineError> for Failure {
 
 impl Failure {
     /// The same, with the file if it is about a checkpoint.
-    pub(crate) fn of_checkpoint(self, file: Option<&Path>) -> Self {
-        match (self, file) {
-            (Failure::Pipeline(error), Some(file)) => match *error {
+    pub(crate) fn of_checkpoint(self, files: Option<&[PathBuf; 2]>) -> Self {
+        match (self, files) {
+            (Failure::Pipeline(error), Some([file, readings])) => match *error {
                 PipelineError::Search(SearchFailure::Checkpoint(error)) => {
-                    Failure::Checkpoint { file: file.to_owned(), error }
+                    Failure::Checkpoint { file: file.clone(), error }
+                }
+                PipelineError::Search(SearchFailure::ReadingCheckpoint(error)) => {
+                    Failure::Checkpoint { file: readings.clone(), error }
                 }
                 error => error.into(),
             },

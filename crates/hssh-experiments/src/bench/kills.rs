@@ -30,28 +30,37 @@ struct Case {
 
 const CASES: [Case; 4] = [
     Case {
-        name: "count, 5×5 planar, 25 places",
+        name: "count, 5×5 planar, 32 travels",
         side: 5,
         measured: false,
-        arguments: &["--search", "count", "--planar", "--max-places", "25"],
+        arguments: &["--search", "count", "--planar", "--travels", "32"],
     },
     Case {
-        name: "breadth-first, 5×5 planar, 21 travels",
+        name: "breadth-first, 5×5 planar, 31 travels",
         side: 5,
         measured: false,
-        arguments: &["--search", "breadth-first", "--planar", "--travels", "21"],
+        arguments: &["--search", "breadth-first", "--planar", "--travels", "31"],
     },
     Case {
-        name: "proof by preference, 5×5 planar",
-        side: 5,
+        name: "proof by preference, 6×6 planar",
+        side: 6,
         measured: false,
-        arguments: &["--search", "proof", "--planar", "--max-places", "26", "--closed"],
+        arguments: &[
+            "--search",
+            "proof",
+            "--planar",
+            "--max-places",
+            "36",
+            "--closed",
+            "--max-nodes",
+            "2000000",
+        ],
     },
     Case {
-        name: "posterior, 8×8, rest 1e-12",
+        name: "posterior, 8×8, 60,000 hypotheses",
         side: 8,
         measured: true,
-        arguments: &["--search", "posterior", "--rest", "1e-12", "--best", "20"],
+        arguments: &["--search", "posterior", "--max-nodes", "60000"],
     },
 ];
 

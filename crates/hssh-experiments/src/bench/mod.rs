@@ -10,6 +10,7 @@ mod memory;
 mod online;
 mod processes;
 mod proof;
+mod size;
 pub(crate) mod speed;
 pub(crate) mod usage;
 mod wrong_closures;
@@ -36,6 +37,7 @@ pub(crate) fn run(flags: &flags::Bench) -> Result<(), Box<dyn Error>> {
         Some("kills") => kills::run(),
         Some("memory") => memory::run(),
         Some("processes") => processes::run(),
+        Some("size") => size::run(),
         Some("long") => long::run(limit),
         Some("online") => online::run(flags.data.as_deref().or(data.as_deref())),
         None => {
@@ -44,7 +46,7 @@ pub(crate) fn run(flags: &flags::Bench) -> Result<(), Box<dyn Error>> {
             proof::run(limit)
         }
         Some(other) => {
-            let names = "speed, faces, proof, graphs, closures, wrong-closures, online, certificates, long, kills, memory, processes";
+            let names = "speed, faces, proof, graphs, closures, wrong-closures, online, certificates, long, kills, memory, processes, size";
             Err(format!("there is no benchmark `{other}`; there are: {names}").into())
         }
     }

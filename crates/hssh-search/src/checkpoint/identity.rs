@@ -24,6 +24,11 @@ impl Identity {
     pub(crate) fn of(strategy: String, options: &MapperBuilder, exploration: &Exploration) -> Self {
         let MapperBuilder { axioms, objective, order, goal, proving, appearance, constraints, .. } = options;
         let matters: [&dyn Debug; 7] = [axioms, objective, order, goal, proving, appearance, constraints];
+        Identity::told(strategy, &matters, exploration)
+    }
+
+    /// That of a search for which those options matter.
+    pub(crate) fn told(strategy: String, matters: &[&dyn Debug], exploration: &Exploration) -> Self {
         Identity {
             version: env!("CARGO_PKG_VERSION").to_owned(),
             exploration: fingerprint(exploration.to_ron().as_bytes()),

@@ -5,7 +5,6 @@
 
 mod error;
 mod identity;
-mod pack;
 mod seal;
 mod state;
 
@@ -16,7 +15,6 @@ use std::time::{Duration, Instant};
 
 pub use error::CheckpointError;
 pub(crate) use identity::Identity;
-pub(crate) use pack::Pack;
 pub use seal::Source;
 pub(crate) use seal::{Pen, Unsealed};
 pub(crate) use state::{State, write_state};

@@ -11,7 +11,7 @@ use serde::de::DeserializeOwned;
 use super::error::CheckpointError;
 
 /// What every checkpoint begins with. The number changes with whatever follows.
-const MAGIC: &[u8] = b"hssh checkpoint 1\n";
+const MAGIC: &[u8] = b"hssh checkpoint 2\n";
 
 /// The part of it that all numbers share.
 const NAME: &[u8] = b"hssh checkpoint ";
@@ -112,7 +112,7 @@ impl<'a> Unsealed<'a> {
             (Some(format), _) => {
                 let format = String::from_utf8_lossy(format);
                 let there = format!("with checkpoints of form {}", format.trim_end());
-                let here = "with checkpoints of form 1".to_owned();
+                let here = "with checkpoints of form 2".to_owned();
                 return Err(CheckpointError::Version { there, here });
             }
             (None, _) => return Err(CheckpointError::Foreign),
@@ -191,7 +191,7 @@ mod tests {
     #[test]
     fn another_form_and_what_is_no_checkpoint_are_told_from_damage() {
         let sealed = sealed(&[7]);
-        let other = String::from_utf8(sealed[..MAGIC.len()].to_vec()).unwrap().replace('1', "2").into_bytes();
+        let other = String::from_utf8(sealed[..MAGIC.len()].to_vec()).unwrap().replace('2', "1").into_bytes();
         assert!(matches!(read([other, vec![0; 9]].concat()), Err(CheckpointError::Version { .. })));
         assert!(matches!(read(b"(stars: {})".to_vec()), Err(CheckpointError::Foreign)));
         assert!(matches!(read(Vec::new()), Err(CheckpointError::Foreign)));

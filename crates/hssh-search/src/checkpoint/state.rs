@@ -7,13 +7,16 @@ use hssh_metrics::SolveError;
 use serde::{Deserialize, Serialize};
 
 use super::error::CheckpointError;
-use super::pack::Pack;
 use super::seal::{Pen, Unsealed};
+use crate::context::Context;
+use crate::elsewhere::{Elsewhere, unwritten};
 use crate::engine::{Engine, Found, GrowingLevel, Sweep};
 use crate::fringe::Fringe;
+use crate::frontier::Told;
 use crate::leaf::Leaf;
+use crate::pack::{Pack, PackedLeaf};
 use crate::tally::Tally;
-use crate::tree::{NodeId, Tree};
+use crate::tree::Tree;
 
 /// What is small.
 #[derive(Serialize, Deserialize)]
@@ -39,10 +42,6 @@ struct Growing {
     tally: Tally,
     next: usize,
 }
-
-/// A leaf, its load packed.
-#[derive(Serialize, Deserialize)]
-struct PackedLeaf<K, L>(K, u32, NodeId, u32, u32, L);
 
 /// The leaves of a search by where they are, in an order that a search cannot tell from that which they had.
 fn leaves<A: Pack>(engine: &Engine<A>) -> [Vec<&Leaf<A>>; 5] {
@@ -81,10 +80,13 @@ pub(crate) fn write_state<A: Pack>(engine: &Engine<A>, pen: &mut Pen<'_>) -> io:
     let shared = A::share(leaves.iter().flatten().map(|leaf| &leaf.load));
     pen.put(&shared)?;
     for leaves in leaves {
-        pen.put_all(leaves.into_iter().map(|leaf| {
-            let Leaf { key, arrival, node, depth, pending, ref load } = *leaf;
-            PackedLeaf(key, arrival, node, depth, pending, A::pack(load, &shared))
-        }))?;
+        pen.put_all(leaves.into_iter().map(|leaf| PackedLeaf::of(leaf, &shared)))?;
+    }
+    let Some(elsewhere) = &engine.frontier.elsewhere else { return pen.put(&0_usize) };
+    pen.put(&engine.frontier.pages().count())?;
+    for (part, page) in engine.frontier.pages() {
+        pen.put(&(part, page.bytes))?;
+        pen.put(&elsewhere.written(page)?)?;
     }
     Ok(())
 }
@@ -95,29 +97,56 @@ pub(crate) struct State<A: Pack> {
     small: Small<A::Key>,
     /// By where they are.
     leaves: [Vec<Leaf<A>>; 5],
+    /// Those that were elsewhere, and are again.
+    pages: Vec<Told<A>>,
 }
 
 impl<A: Pack> State<A> {
-    /// Reads the state of a search through the maps of so many travels.
+    /// Reads the state of a search.
     ///
     /// # Errors
     /// If it is none.
-    pub(crate) fn read(unsealed: &mut Unsealed<'_>, travels: usize) -> Result<Self, CheckpointError> {
+    pub(crate) fn read(
+        unsealed: &mut Unsealed<'_>,
+        elsewhere: Option<&Elsewhere>,
+        context: Context<'_>,
+    ) -> Result<Self, CheckpointError> {
+        let travels = context.travels();
         let tree: Tree = unsealed.take()?;
         if !tree.is_sound(travels) {
             return Err(CheckpointError::Damaged);
         }
         let small: Small<A::Key> = unsealed.take()?;
         let shared: A::Read = unsealed.take()?;
+        let is_there =
+            |leaf: &Leaf<A>| leaf.node.index() < tree.len() && tree.depth(leaf.node) == leaf.depth();
         let mut leaves: [Vec<Leaf<A>>; 5] = Default::default();
         for leaves in &mut leaves {
-            *leaves = unsealed.take_all(|PackedLeaf(key, arrival, node, depth, pending, load)| {
-                let is_there = node.index() < tree.len() && tree.depth(node) == depth as usize;
-                let load = A::unpack(load, &shared).filter(|_| is_there)?;
-                Some(Leaf { key, arrival, node, depth, pending, load })
+            *leaves = unsealed.take_all(|packed: PackedLeaf<A::Key, A::Packed>| {
+                packed.unpack(&shared, context.axioms).filter(is_there)
             })?;
         }
-        let state = State { tree, small, leaves };
+        let mut pages = Vec::new();
+        let mut parked = Vec::new();
+        let count: usize = unsealed.take()?;
+        for _ in 0..count {
+            let (part, bytes): (Option<(u32, u32)>, u64) = unsealed.take()?;
+            let written: Vec<u8> = unsealed.take()?;
+            let read = unwritten::<A>(&written, context.axioms).filter(|leaves| leaves.iter().all(is_there));
+            let own = read.ok_or(CheckpointError::Damaged)?;
+            if part.is_some_and(|(depth, _)| own.iter().any(|leaf| leaf.depth != depth)) {
+                return Err(CheckpointError::Damaged);
+            }
+            match elsewhere.filter(|_| parked.is_empty()).and_then(|elsewhere| elsewhere.keep(&own, bytes)) {
+                Some(page) => pages.push(Told { part, page }),
+                None if part.is_some() => leaves[0].extend(own),
+                None => parked.extend(own),
+            }
+        }
+        // What was elsewhere was set aside before what was not.
+        parked.append(&mut leaves[1]);
+        leaves[1] = parked;
+        let state = State { tree, small, leaves, pages };
         if state.is_sound(travels) { Ok(state) } else { Err(CheckpointError::Damaged) }
     }
 
@@ -151,7 +180,7 @@ impl<A: Pack> State<A> {
             self.small;
         let [queued, parked, found, rejected, growing_leaves] = self.leaves;
         engine.tree = self.tree;
-        engine.frontier.restore(queued, parked, arrivals);
+        engine.frontier.restore(queued, parked, arrivals, self.pages);
         let found = found.into_iter();
         engine.found = found.map(|leaf| Found { branch: engine.tree.choices(leaf.node), leaf }).collect();
         engine.rejected = rejected;

@@ -3,6 +3,7 @@
 use std::sync::Arc;
 
 use hssh_metrics::{Marginals, Options, Pose, PoseGraph, SolveError, chordal_poses, solve};
+use serde::{Deserialize, Serialize};
 
 use crate::legs::Legs;
 use crate::measured::PlacedTravel;
@@ -10,7 +11,7 @@ use crate::posterior::outlook::trust;
 use crate::posterior::poses::Poses;
 
 /// The most likely poses of all places, the first at the origin.
-#[derive(Clone, PartialEq, Debug)]
+#[derive(Clone, PartialEq, Debug, Serialize, Deserialize)]
 pub(crate) struct Layout {
     pub(crate) poses: Poses,
     pub(crate) chi2: f64,

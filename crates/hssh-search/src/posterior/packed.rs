@@ -4,11 +4,11 @@ use std::collections::HashMap;
 use std::sync::Arc;
 
 use hssh_metrics::Pose;
-use hssh_topology::SimplicityFloor;
+use hssh_topology::{Axioms, SimplicityFloor};
 use serde::ser::SerializeTuple;
 use serde::{Deserialize, Serialize, Serializer};
 
-use crate::checkpoint::Pack;
+use crate::pack::Pack;
 use crate::posterior::by_posterior::{Burden, ByPosterior, Nats, Placing};
 use crate::posterior::cost::Cost;
 use crate::posterior::layout::Layout;
@@ -139,7 +139,7 @@ impl Pack for ByPosterior {
         }
     }
 
-    fn unpack(packed: PackedBurden, read: &ReadLayouts) -> Option<Burden> {
+    fn unpack(packed: PackedBurden, read: &ReadLayouts, _: &Axioms) -> Option<Burden> {
         let PackedBurden { cost, floor, bound, log_branches, layout, placing } = packed;
         let layout = read.0.get(layout as usize)?.clone()?;
         let placing = match placing {

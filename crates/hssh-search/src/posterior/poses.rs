@@ -4,13 +4,16 @@ use std::ops::Index;
 use std::sync::Arc;
 
 use hssh_metrics::Pose;
+use serde::ser::SerializeSeq;
+use serde::{Deserialize, Serialize, Serializer};
 
 /// How many poses are shared at once.
 pub(super) const SHARED: usize = 128;
 
 /// Poses in order. A copy shares all of them but the last few, so that layouts that grow pose by pose do not take the square of their
 /// length.
-#[derive(Clone, PartialEq, Debug, Default)]
+#[derive(Clone, PartialEq, Debug, Default, Deserialize)]
+#[serde(from = "Vec<Pose>")]
 pub(crate) struct Poses {
     shared: Vec<Arc<[Pose]>>,
     last: Vec<Pose>,
@@ -48,6 +51,23 @@ impl Poses {
     /// All of them.
     pub(crate) fn iter(&self) -> impl Iterator<Item = Pose> + '_ {
         self.shared.iter().flat_map(|shared| shared.iter()).chain(&self.last).copied()
+    }
+}
+
+/// One after the other, whatever is shared.
+impl Serialize for Poses {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        let mut poses = serializer.serialize_seq(Some(self.len()))?;
+        for pose in self.iter() {
+            poses.serialize_element(&pose)?;
+        }
+        poses.end()
+    }
+}
+
+impl From<Vec<Pose>> for Poses {
+    fn from(poses: Vec<Pose>) -> Self {
+        poses.into_iter().collect()
     }
 }
 

@@ -37,12 +37,12 @@ pub(crate) struct ByReading {
 pub(crate) struct Burden {
     /// What it costs; while its way is not spelled out, at least.
     pub(crate) cost: Cost,
-    bound: Nats,
+    pub(super) bound: Nats,
     /// What χ² will become by the linear estimate.
-    promised: f64,
+    pub(super) promised: f64,
     /// Successors that cost no more are spelled out.
-    spelled: Nats,
-    stage: Stage,
+    pub(super) spelled: Nats,
+    pub(super) stage: Stage,
 }
 
 /// No successor is spelled out yet.
@@ -53,7 +53,7 @@ const PORTION: f64 = 3.0;
 
 /// How far an account is spelled out. Nothing is before its turn.
 #[derive(Clone, Debug)]
-enum Stage {
+pub(super) enum Stage {
     /// Its state is there, and the map that its chart makes.
     Done(Arc<State>, Arc<TopologicalMap>),
     /// Its parent, and what the travel is taken to be.

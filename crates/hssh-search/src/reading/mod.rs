@@ -3,6 +3,7 @@
 mod by_reading;
 mod corrected;
 mod geometry;
+mod packed;
 mod reader;
 mod state;
 

@@ -1,5 +1,6 @@
 //! The search for the most probable accounts of an exploration with errors.
 
+use std::fmt::Debug;
 use std::sync::Arc;
 use std::time::Instant;
 
@@ -8,17 +9,20 @@ use hssh_metrics::Pose;
 use hssh_topology::{Axioms, Chart, PlaceId, ReadingModel, TopologicalMap};
 
 use crate::builder::MapperError;
+use crate::checkpoint::{Checkpoints, Identity, Keeping, State, write_state};
 use crate::constraints::VisitConstraints;
 use crate::context::Context;
 use crate::crew::Crew;
+use crate::elsewhere::{Elsewhere, Store};
 use crate::engine::Engine;
 use crate::experience::Experience;
+use crate::kept::kept;
 use crate::limits::{Limits, Monitor, StopReason, Watch};
 use crate::mapper::proof;
 use crate::order::{Goal, Order, Proving};
 use crate::posterior::{Cost, MapPrior, PosteriorModel};
 use crate::reading::by_reading::ByReading;
-use crate::reading::state::{Passage, State};
+use crate::reading::state::{Passage, State as Told};
 use crate::report::Proof;
 
 /// How far bearings of one end lie apart that was seen twice: rad.
@@ -47,6 +51,11 @@ pub struct Reader {
     pub threads: usize,
     /// A window on the search for other threads.
     pub monitor: Arc<Monitor>,
+    /// Where its state is kept from time to time. It goes on from the checkpoint that is there, if there is one, with the answer of a search
+    /// that was never interrupted; the last one, when the search has come to its end, has the answer.
+    pub checkpoints: Option<Checkpoints>,
+    /// Where open accounts are kept for which the limit on memory leaves no room.
+    pub store: Option<Arc<dyn Store>>,
 }
 
 /// What a search for accounts came to.
@@ -118,6 +127,8 @@ impl Reader {
             limits: Limits::default(),
             threads: 1,
             monitor: Arc::default(),
+            checkpoints: None,
+            store: None,
         }
     }
 
@@ -144,8 +155,28 @@ impl Reader {
         let context = Context { experience: &experience, axioms: &self.axioms, crew: &crew, watch: &watch };
         let appraiser = ByReading::new(model, self.reading, self.bearing_deviation, &experience);
         let proving = Proving { best: self.best, rest: 1.0, patience: self.patience };
-        let mut engine = Engine::new(appraiser, Order::Cyclic, Goal::AnyMap, proving, context)?;
-        let stop = engine.observe(context)?.unwrap_or_else(|| engine.advance(context));
+        let elsewhere = self.store.clone().map(|store| Elsewhere::new(store, self.axioms));
+        let mut engine = Engine::new(appraiser, Order::Cyclic, Goal::AnyMap, proving, elsewhere, context)?;
+        let mut keeping = Keeping::new(self.checkpoints.clone(), || self.identity(exploration));
+        let before = self.go_on(&mut engine, &keeping, context)?;
+        let seconds = || before + started.elapsed().as_secs_f64();
+        let stop = match engine.observe(context)? {
+            Some(stop) => stop,
+            None => {
+                let stop = kept(&mut engine, context, &mut keeping, |pen| pen.put(&seconds()));
+                if stop.is_complete() {
+                    // What follows may be ended, too, and is not to wait for this again.
+                    keeping.keep(|pen| {
+                        pen.put(&seconds())?;
+                        write_state(&engine, pen)
+                    });
+                }
+                stop
+            }
+        };
+        if let Some(problem) = engine.frontier.lost() {
+            return Err(MapperError::Lost(problem.to_string()));
+        }
         if let Some((travels, problem)) = engine.unsolvable.filter(|_| engine.found.is_empty()) {
             return Err(MapperError::Unsolvable { travels, problem });
         }
@@ -156,8 +187,36 @@ impl Reader {
             expanded: engine.tally.expanded,
             found_after: engine.sweep.best_since,
             proof: proof(&engine),
-            seconds: started.elapsed().as_secs_f64(),
+            seconds: seconds(),
         })
+    }
+
+    /// Tells it from other searches. Its limits and threads may be others when it goes on.
+    fn identity(&self, exploration: &Exploration) -> Identity {
+        let Reader { model, reading, bearing_deviation, axioms, constraints, best, patience, .. } = self;
+        let matters: [&dyn Debug; 7] =
+            [model, reading, bearing_deviation, axioms, constraints, best, patience];
+        Identity::told("accounts with errors of perception".to_owned(), &matters, exploration)
+    }
+
+    /// Puts the search where its checkpoint says that it is, if there is one; how many seconds it took until then.
+    fn go_on(
+        &self,
+        engine: &mut Engine<ByReading>,
+        keeping: &Keeping,
+        context: Context<'_>,
+    ) -> Result<f64, MapperError> {
+        let kept = keeping.begin(|unsealed| {
+            let before: f64 = unsealed.take()?;
+            let state = State::read(unsealed, engine.frontier.elsewhere.as_ref(), context)?;
+            Ok((state.nodes(), (before, state)))
+        })?;
+        let Some((before, state)) = kept else { return Ok(0.0) };
+        let unlimited = Watch::without_limits();
+        engine.observe(Context { watch: &unlimited, ..context })?;
+        state.restore(engine);
+        self.monitor.goes_on(engine.tree.len() as u64, engine.deepest().unwrap_or(0));
+        Ok(before)
     }
 }
 
@@ -184,7 +243,7 @@ fn maps(engine: &Engine<ByReading>) -> Vec<ReadMap> {
     maps
 }
 
-fn read_map(state: &State, map: &TopologicalMap, cost: Cost) -> ReadMap {
+fn read_map(state: &Told, map: &TopologicalMap, cost: Cost) -> ReadMap {
     let chart = &state.account.chart;
     let is_laid_out = state.layout.poses.iter().any(|pose| pose != Pose::IDENTITY);
     let mut poses: Vec<Option<Pose>> =

@@ -5,6 +5,7 @@ use std::sync::Arc;
 use hssh_causal::Odometry;
 use hssh_metrics::{Pose, PoseGraph, PoseId, UncertainPose, UncertaintyError};
 use hssh_topology::{Account, ChartEnd, Observation, PlaceId, Reading, Sight, StarId, Way};
+use serde::{Deserialize, Serialize};
 
 use crate::experience::Experience;
 use crate::frames::{bearings, circular_mean};
@@ -12,7 +13,7 @@ use crate::measured::{MeasuredTravel, PlacedTravel};
 use crate::posterior::Layout;
 
 /// A direction in the frame of a place, or of a visit: rad.
-#[derive(Clone, Copy, PartialEq, Debug)]
+#[derive(Clone, Copy, PartialEq, Debug, Serialize, Deserialize)]
 pub(crate) struct Bearing {
     pub(crate) angle: f64,
     /// Else it is only where ends are spread evenly.
@@ -40,7 +41,7 @@ impl Sights {
 }
 
 /// Measured travels that lead from one place to another, with how the frames of the visits are turned against those of the places.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, Serialize, Deserialize)]
 struct Leg {
     /// The travels, those to false visits among them.
     travels: [u32; 2],
@@ -51,12 +52,12 @@ struct Leg {
 /// One step of a branch: how the travel is explained.
 #[derive(Debug)]
 pub(crate) struct Trace {
-    before: Option<Arc<Trace>>,
+    pub(super) before: Option<Arc<Trace>>,
     pub(crate) step: Passage,
 }
 
 /// How a travel is explained, and where it led.
-#[derive(Clone, PartialEq, Debug)]
+#[derive(Clone, PartialEq, Debug, Serialize, Deserialize)]
 pub struct Passage {
     /// How.
     pub way: Way,
@@ -67,11 +68,36 @@ pub struct Passage {
     /// By end of the star seen there: the end of the place that it is.
     pub seen: Vec<Option<ChartEnd>>,
     /// The frame of the place in that of the place before, as measured since the robot was there.
+    #[serde(with = "written")]
     pub measured: Option<Odometry>,
 }
 
+/// Odometry as plain numbers: its pose, and its covariance row by row.
+mod written {
+    use hssh_causal::Odometry;
+    use serde::{Deserialize, Deserializer, Serialize, Serializer};
+
+    type Numbers = ([f64; 3], [[f64; 3]; 3]);
+
+    pub(super) fn serialize<S: Serializer>(
+        told: &Option<Odometry>,
+        serializer: S,
+    ) -> Result<S::Ok, S::Error> {
+        let numbers =
+            |&Odometry { x, y, theta, covariance }: &Odometry| -> Numbers { ([x, y, theta], covariance) };
+        told.as_ref().map(numbers).serialize(serializer)
+    }
+
+    pub(super) fn deserialize<'de, D: Deserializer<'de>>(
+        deserializer: D,
+    ) -> Result<Option<Odometry>, D::Error> {
+        let numbers: Option<Numbers> = Option::deserialize(deserializer)?;
+        Ok(numbers.map(|([x, y, theta], covariance)| Odometry { x, y, theta, covariance }))
+    }
+}
+
 /// An account with its layout.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 pub(crate) struct State {
     pub(crate) account: Account,
     pub(crate) layout: Layout,
@@ -84,7 +110,9 @@ pub(crate) struct State {
     turn: f64,
     /// The first travel since.
     since: u32,
-    trace: Option<Arc<Trace>>,
+    /// Written by itself, since states share it.
+    #[serde(skip)]
+    pub(super) trace: Option<Arc<Trace>>,
 }
 
 impl State {
@@ -228,6 +256,26 @@ impl State {
         visits.push(Some(PlaceId::new(0)));
         visits.reverse();
         visits
+    }
+
+    /// Whether a state that was read is one, of so many travels.
+    pub(super) fn is_sound(&self, travels: usize) -> bool {
+        let Account { chart, place, seen, underway } = &self.account;
+        let is_end = |end: ChartEnd| end.index() < chart.end_count();
+        let is_pose = |pose: PoseId| pose.index() < self.layout.poses.len();
+        let is_leg = |leg: &Leg| {
+            let [first, last] = leg.travels;
+            first <= last && (last as usize) < travels && is_pose(leg.from.0) && is_pose(leg.to.0)
+        };
+        chart.is_sound()
+            && place.index() < chart.place_count() as usize
+            && seen.iter().flatten().all(|&end| is_end(end))
+            && underway.is_none_or(|underway| is_end(underway.exit))
+            && self.pose_of(*place).is_some()
+            && self.places.iter().flatten().all(|&pose| is_pose(pose))
+            && self.bearings.len() <= chart.end_count()
+            && self.legs.iter().all(is_leg)
+            && self.since as usize <= travels
     }
 
     /// About what it takes.

@@ -5,13 +5,13 @@
 
 use crate::context::Context;
 use crate::engine::Engine;
-use crate::leaf::Appraise;
 use crate::limits::StopReason;
+use crate::pack::Pack;
 
 /// Expansions between two looks at the limits.
 const LOOK: u64 = 128;
 
-impl<A: Appraise> Engine<A> {
+impl<A: Pack> Engine<A> {
     /// Expands the best open hypothesis until the best one explains everything and, if asked for, is
     /// closed.
     pub(crate) fn best_first(&mut self, context: Context<'_>) -> StopReason {
@@ -27,7 +27,7 @@ impl<A: Appraise> Engine<A> {
                 break;
             }
             let Some(depth) = self.frontier.next_level() else { break };
-            let Some(mut leaf) = self.frontier.levels[depth].pop() else { break };
+            let Some(mut leaf) = self.frontier.pop(depth) else { break };
             self.bytes -= self.appraiser.bytes(&leaf);
             if !self.appraiser.is_settled(&leaf) {
                 if self.settle(&mut leaf, &mut cursor, context) {

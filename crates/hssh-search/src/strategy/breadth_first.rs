@@ -3,9 +3,12 @@
 use std::time::Duration;
 
 use crate::context::Context;
+use crate::cursor::Cursor;
 use crate::engine::{Engine, GrowingLevel};
-use crate::leaf::{Appraise, Growth, Leaf};
+use crate::leaf::Leaf;
 use crate::limits::{StopReason, Watch};
+use crate::pack::Pack;
+use crate::turns::{End, Taken, Turn, take_all};
 
 /// Hypotheses between two looks at the limits.
 const LOOK: usize = 256;
@@ -20,7 +23,7 @@ pub(crate) fn time_for_looking(watch: &Watch) -> Duration {
     watch.time().map_or(PATIENCE, |time| time / FOR_LOOKING)
 }
 
-impl<A: Appraise> Engine<A> {
+impl<A: Pack> Engine<A> {
     /// Grows the tree level by level to the last travel. A limit leaves a level incomplete, with which the next call goes on.
     pub(crate) fn breadth_first(&mut self, context: Context<'_>) -> StopReason {
         while self.fringe.depth < context.travels() {
@@ -55,7 +58,7 @@ impl<A: Appraise> Engine<A> {
     fn grow_appraised(&mut self, context: Context<'_>) -> Result<(), StopReason> {
         let depth = self.fringe.depth;
         let mut growing = self.growing.take().unwrap_or_else(|| {
-            let mut leaves: Vec<Leaf<A>> = std::iter::from_fn(|| self.frontier.levels[depth].pop()).collect();
+            let mut leaves: Vec<Leaf<A>> = std::iter::from_fn(|| self.frontier.pop(depth)).collect();
             leaves.sort_unstable_by_key(|leaf| leaf.node);
             let (nodes, maps, tally) = (self.tree.len(), self.tree.map_count(), self.tally.clone());
             GrowingLevel { nodes, maps, tally, leaves, next: 0 }
@@ -66,18 +69,23 @@ impl<A: Appraise> Engine<A> {
                 return Err(reason);
             }
             let (appraiser, tree) = (&self.appraiser, &self.tree);
-            let together = &growing.leaves[growing.next..];
-            let together = &together[..together.len().min(LOOK)];
-            let grown = context.crew.map(together, context.experience, |cursor, leaf| -> Growth<A> {
-                let mut leaf = leaf.clone();
-                appraiser.settle(&mut leaf, cursor, tree, context)?;
-                appraiser.grow(&leaf, cursor, tree, context)
+            let together = growing.leaves[growing.next..].iter().take(LOOK);
+            let turn = |leaf: &Leaf<A>| Turn { leaf: leaf.clone(), reach: None, next: None, front: 0 };
+            let turns: Vec<Turn<A>> = together.map(turn).collect();
+            let taken = take_all(&turns, tree, context, |turns| {
+                let take = |cursor: &mut Cursor, turn: &Turn<A>| turn.take(appraiser, cursor, tree, context);
+                context.crew.map(turns, context.experience, take)
             });
-            for (leaf, grown) in together.iter().zip(grown) {
-                self.solved += u64::from(!self.appraiser.is_settled(leaf));
-                self.plant(leaf, grown, context).into_iter().for_each(|leaf| self.push(leaf));
+            for Taken { leaf, solved, end, .. } in taken {
+                self.solved += u64::from(solved);
+                let grown = match end {
+                    End::Grown(grown) => grown,
+                    End::Unsolvable(problem) => Err(problem),
+                    End::Beyond | End::Overtaken | End::Settled => continue,
+                };
+                self.plant(&leaf, grown, context).into_iter().for_each(|leaf| self.push(leaf));
             }
-            growing.next += together.len();
+            growing.next += turns.len();
         }
         self.bytes -= growing.leaves.iter().map(|leaf| self.appraiser.bytes(leaf)).sum::<u64>();
         self.tally.make_level(depth + 1);
@@ -88,7 +96,7 @@ impl<A: Appraise> Engine<A> {
     /// Forgets the level that is being grown, if there is one.
     fn give_up_appraised(&mut self, context: Context<'_>) {
         let Some(GrowingLevel { nodes, maps, tally, leaves, .. }) = self.growing.take() else { return };
-        let given_up = self.frontier.levels[self.fringe.depth + 1].empty();
+        let given_up = self.frontier.empty(self.fringe.depth + 1);
         self.bytes -= given_up.iter().map(|leaf| self.appraiser.bytes(leaf)).sum::<u64>();
         self.fringe.forget(&mut self.tree, nodes, maps, context);
         self.tally = tally;
@@ -98,7 +106,7 @@ impl<A: Appraise> Engine<A> {
     /// All hypotheses of the complete fringe are maps that were found.
     fn find_fringe(&mut self, context: Context<'_>) {
         let mut cursor = self.lend_cursor(context);
-        while let Some(mut leaf) = self.frontier.levels[context.travels()].pop() {
+        while let Some(mut leaf) = self.frontier.pop(context.travels()) {
             self.bytes -= self.appraiser.bytes(&leaf);
             if self.appraiser.is_settled(&leaf) || self.settle(&mut leaf, &mut cursor, context) {
                 self.arrive(leaf);

@@ -6,15 +6,14 @@
 //! share the step, and the result does not depend on how many they are. Once there is a map, the proof asks for all that is
 //! within reach, and fronts with nothing to do help the others.
 
-use hssh_metrics::SolveError;
-
 use crate::context::Context;
 use crate::cursor::Cursor;
 use crate::engine::{Cycle, Engine};
-use crate::frontier::Level;
-use crate::leaf::{Appraise, Growth, Leaf, matters};
+use crate::leaf::matters;
 use crate::limits::StopReason;
+use crate::pack::Pack;
 use crate::tree::Tree;
+use crate::turns::{End, Taken, Turn, take_all};
 
 /// Up to so many travels there is one front.
 const ONE_FRONT: usize = 32;
@@ -28,66 +27,7 @@ const WIDENING: f64 = 1.0;
 /// For the probability of the rest a search expands so many hypotheses more than it did for the proof.
 const REST_WORK: u64 = 2_000;
 
-/// What came of one level's turn.
-struct Turn<A: Appraise> {
-    /// The hypothesis that was expanded.
-    expanded: Option<(Leaf<A>, Growth<A>)>,
-    /// Those that turned out to be beyond reach.
-    beyond: Vec<Leaf<A>>,
-    /// Those that have no layout.
-    unsolvable: Vec<(Leaf<A>, SolveError)>,
-    /// By what factors keys rose of what was promised, each with the leaf's bound.
-    factors: Vec<(Option<A::Key>, f64)>,
-    solved: u64,
-    /// By how many bytes hypotheses grew when they were settled.
-    grown: i64,
-}
-
-impl<A: Appraise> Default for Turn<A> {
-    fn default() -> Self {
-        Turn {
-            expanded: None,
-            beyond: Vec::new(),
-            unsolvable: Vec::new(),
-            factors: Vec::new(),
-            solved: 0,
-            grown: 0,
-        }
-    }
-}
-
-impl<A: Appraise> Turn<A> {
-    /// Settles a hypothesis; it is returned if something may still come of it.
-    fn settled(
-        &mut self,
-        appraiser: &A,
-        mut leaf: Leaf<A>,
-        reach: Option<A::Key>,
-        cursor: &mut Cursor,
-        tree: &Tree,
-        context: Context<'_>,
-    ) -> Option<Leaf<A>> {
-        if matters(appraiser, &leaf, reach) && !appraiser.is_settled(&leaf) {
-            self.solved += 1;
-            let before = appraiser.bytes(&leaf);
-            match appraiser.settle(&mut leaf, cursor, tree, context) {
-                Ok(factor) => self.factors.extend(factor.map(|factor| (appraiser.bound(&leaf), factor))),
-                Err(problem) => {
-                    self.unsolvable.push((leaf, problem));
-                    return None;
-                }
-            }
-            self.grown += appraiser.bytes(&leaf) as i64 - before as i64;
-        }
-        if matters(appraiser, &leaf, reach) {
-            return Some(leaf);
-        }
-        self.beyond.push(leaf);
-        None
-    }
-}
-
-impl<A: Appraise> Engine<A> {
+impl<A: Pack> Engine<A> {
     /// Sweeps until the best maps are proved, and so little probability is left as was asked for.
     pub(crate) fn cyclic(&mut self, context: Context<'_>) -> StopReason {
         let travels = context.travels();
@@ -133,77 +73,112 @@ impl<A: Appraise> Engine<A> {
         if self.reach.is_some() && levels.len() > 1 {
             return self.take_shares(&levels, context);
         }
-        while self.cursors.len() < levels.len() {
-            self.cursors.push(Cursor::new(context.experience));
+        let mut ended: Vec<Vec<Taken<A>>> = levels.iter().map(|_| Vec::new()).collect();
+        let mut open: Vec<usize> = (0..levels.len()).collect();
+        while !open.is_empty() {
+            let turn = |front| self.next_turn(levels[front], front);
+            let turns: Vec<Turn<A>> = open.drain(..).filter_map(turn).collect();
+            let taken = self.take_by_fronts(&turns, context);
+            for (&Turn { front, .. }, taken) in turns.iter().zip(taken) {
+                if !matches!(taken.end, End::Grown(_)) {
+                    open.push(front);
+                }
+                match taken.end {
+                    End::Overtaken => {
+                        let leaf = taken.leaf.clone();
+                        self.end_turn(taken, context);
+                        self.frontier.push(leaf);
+                    }
+                    _ => ended[front].push(taken),
+                }
+            }
         }
-        let (appraiser, tree, reach) = (&self.appraiser, &self.tree, self.reach);
-        let chosen = levels.iter().scan(0, |from, &level| {
-            let skip = level - std::mem::replace(from, level + 1);
-            Some(skip)
-        });
-        let mut all = self.frontier.levels.iter_mut();
-        let levels: Vec<_> = chosen.filter_map(|skip| all.nth(skip)).collect();
-        let jobs: Vec<_> = levels.into_iter().zip(&mut self.cursors).collect();
-        let turns = context
-            .crew
-            .each(jobs, |(level, cursor)| take_turn(appraiser, level, reach, cursor, tree, context));
-        turns.into_iter().fold(false, |any, turn| self.end_turn(turn, context) | any)
+        ended.into_iter().flatten().fold(false, |any, taken| self.end_turn(taken, context) | any)
+    }
+
+    /// The best hypothesis of a level, if there is one.
+    fn next_turn(&mut self, level: usize, front: usize) -> Option<Turn<A>> {
+        let leaf = self.frontier.pop(level)?;
+        let next = self.frontier.first(level);
+        Some(Turn { leaf, reach: self.reach, next, front })
     }
 
     /// The best hypotheses of these levels, as many as there are fronts, are expanded or set aside; whether there were any.
     fn take_shares(&mut self, levels: &[usize], context: Context<'_>) -> bool {
         let mut leaves = Vec::with_capacity(FRONTS);
         for _ in 0..FRONTS {
-            let queues = &mut self.frontier.levels;
-            leaves.extend(levels.iter().filter_map(|&level| queues[level].pop()).take(FRONTS - leaves.len()));
-        }
-        while self.cursors.len() < leaves.len() {
-            self.cursors.push(Cursor::new(context.experience));
+            let next = levels.iter().filter_map(|&level| self.frontier.pop(level));
+            leaves.extend(next.take(FRONTS - leaves.len()));
         }
         let any = !leaves.is_empty();
-        let (appraiser, tree, reach) = (&self.appraiser, &self.tree, self.reach);
-        let jobs: Vec<_> = leaves.into_iter().zip(&mut self.cursors).collect();
-        let turns = context
-            .crew
-            .each(jobs, |(leaf, cursor)| take_share(appraiser, leaf, reach, cursor, tree, context));
-        for turn in turns {
-            self.end_turn(turn, context);
+        let reach = self.reach;
+        let turn = |(front, leaf)| Turn { leaf, reach, next: None, front };
+        let turns: Vec<Turn<A>> = leaves.into_iter().enumerate().map(turn).collect();
+        for taken in self.take_by_fronts(&turns, context) {
+            self.end_turn(taken, context);
         }
         any
     }
 
-    /// Enters what came of a level's turn; whether anything was expanded.
-    fn end_turn(&mut self, turn: Turn<A>, context: Context<'_>) -> bool {
-        let Turn { expanded, beyond, unsolvable, factors, solved, grown } = turn;
-        self.solved += solved;
-        self.bytes = self.bytes.saturating_add_signed(grown);
-        self.factors.extend(factors);
-        for (leaf, problem) in unsolvable {
-            self.bytes -= self.appraiser.bytes(&leaf);
-            self.unsolvable.get_or_insert((leaf.depth(), problem));
+    /// Takes turns of several fronts in their order, each by the cursor of its front.
+    fn take_by_fronts(&mut self, turns: &[Turn<A>], context: Context<'_>) -> Vec<Taken<A>> {
+        let fronts = turns.last().map_or(0, |turn| turn.front + 1);
+        while self.cursors.len() < fronts {
+            self.cursors.push(Cursor::new(context.experience));
         }
-        beyond.into_iter().for_each(|leaf| self.frontier.park(leaf));
-        let Some((leaf, grown)) = expanded else { return false };
-        self.bytes -= self.appraiser.bytes(&leaf);
-        self.enter(&leaf, grown, context);
-        true
+        let Engine { appraiser, tree, cursors, .. } = self;
+        let (appraiser, tree): (&A, &Tree) = (appraiser, tree);
+        take_all(turns, tree, context, |turns| {
+            let mut all = cursors.iter_mut().enumerate();
+            let mut cursor_of = |front| all.find(|(number, _)| *number == front).map(|(_, cursor)| cursor);
+            let jobs: Vec<_> = turns.iter().filter_map(|turn| Some((turn, cursor_of(turn.front)?))).collect();
+            context.crew.each(jobs, |(turn, cursor)| turn.take(appraiser, cursor, tree, context))
+        })
+    }
+
+    /// Enters what came of a turn; whether anything was expanded.
+    fn end_turn(&mut self, taken: Taken<A>, context: Context<'_>) -> bool {
+        let Taken { leaf, bytes, solved, factor, end } = taken;
+        self.solved += u64::from(solved);
+        self.factors.extend(factor.map(|factor| (self.appraiser.bound(&leaf), factor)));
+        let now = self.appraiser.bytes(&leaf);
+        match end {
+            End::Unsolvable(problem) => {
+                self.bytes -= bytes;
+                self.unsolvable.get_or_insert((leaf.depth(), problem));
+            }
+            End::Beyond => {
+                self.bytes = self.bytes - bytes + now;
+                self.frontier.park(leaf);
+            }
+            End::Overtaken | End::Settled => self.bytes = self.bytes - bytes + now,
+            End::Grown(grown) => {
+                self.bytes -= bytes;
+                self.enter(&leaf, grown, context);
+                return true;
+            }
+        }
+        false
     }
 
     /// All hypotheses within reach that explain everything are maps found, or turned down; whether there was any.
     fn take_whole(&mut self, context: Context<'_>) -> bool {
         let mut cursor = self.lend_cursor(context);
         let mut any = false;
-        loop {
-            let level = &mut self.frontier.levels[context.travels()];
-            let mut turn = choose(&self.appraiser, level, self.reach, &mut cursor, &self.tree, context);
-            let chosen = turn.1.take();
-            self.end_turn(turn.0, context);
-            let Some(leaf) = chosen else { break };
-            self.bytes -= self.appraiser.bytes(&leaf);
-            any = true;
-            self.judge(leaf);
-            if self.stop(context).is_some() {
-                break;
+        while let Some(turn) = self.next_turn(context.travels(), 0) {
+            let taken = turn.settle(&self.appraiser, &mut cursor, &self.tree, context);
+            let (leaf, is_overtaken) = (taken.leaf.clone(), matches!(taken.end, End::Overtaken));
+            let is_settled = matches!(taken.end, End::Settled);
+            self.end_turn(taken, context);
+            if is_overtaken {
+                self.frontier.push(leaf);
+            } else if is_settled {
+                self.bytes -= self.appraiser.bytes(&leaf);
+                any = true;
+                self.judge(leaf);
+                if self.stop(context).is_some() {
+                    break;
+                }
             }
         }
         self.cursors.push(cursor);
@@ -241,59 +216,4 @@ impl<A: Appraise> Engine<A> {
         let waited = self.tally.expanded - self.sweep.best_since;
         (waited >= patience).then_some(StopReason::Found)
     }
-}
-
-/// Expands the best hypothesis of a level.
-fn take_turn<A: Appraise>(
-    appraiser: &A,
-    level: &mut Level<A>,
-    reach: Option<A::Key>,
-    cursor: &mut Cursor,
-    tree: &Tree,
-    context: Context<'_>,
-) -> Turn<A> {
-    let (mut turn, chosen) = choose(appraiser, level, reach, cursor, tree, context);
-    turn.expanded = chosen.map(|leaf| {
-        let grown = appraiser.grow(&leaf, cursor, tree, context);
-        (leaf, grown)
-    });
-    turn
-}
-
-/// Expands a hypothesis, if something may come of it.
-fn take_share<A: Appraise>(
-    appraiser: &A,
-    leaf: Leaf<A>,
-    reach: Option<A::Key>,
-    cursor: &mut Cursor,
-    tree: &Tree,
-    context: Context<'_>,
-) -> Turn<A> {
-    let mut turn = Turn::default();
-    turn.expanded = turn.settled(appraiser, leaf, reach, cursor, tree, context).map(|leaf| {
-        let grown = appraiser.grow(&leaf, cursor, tree, context);
-        (leaf, grown)
-    });
-    turn
-}
-
-/// Takes the best hypothesis of a level that something may come of. It is settled.
-fn choose<A: Appraise>(
-    appraiser: &A,
-    level: &mut Level<A>,
-    reach: Option<A::Key>,
-    cursor: &mut Cursor,
-    tree: &Tree,
-    context: Context<'_>,
-) -> (Turn<A>, Option<Leaf<A>>) {
-    let mut turn = Turn::default();
-    while let Some(leaf) = level.pop() {
-        let Some(leaf) = turn.settled(appraiser, leaf, reach, cursor, tree, context) else { continue };
-        if level.peek().is_some_and(|other| *other < leaf) {
-            level.push(leaf);
-        } else {
-            return (turn, Some(leaf));
-        }
-    }
-    (turn, None)
 }

@@ -7,11 +7,11 @@ mod proof;
 
 use crate::context::Context;
 use crate::engine::Engine;
-use crate::leaf::Appraise;
 use crate::limits::{StopReason, Watch};
 use crate::order::Order;
+use crate::pack::Pack;
 
-impl<A: Appraise> Engine<A> {
+impl<A: Pack> Engine<A> {
     /// Searches on until everything observed is explained as well as was asked for, or a limit stops it.
     pub(crate) fn advance(&mut self, context: Context<'_>) -> StopReason {
         match self.order {

@@ -3,8 +3,10 @@
 
 use crate::context::Context;
 use crate::engine::Engine;
-use crate::leaf::{Appraise, Leaf};
+use crate::leaf::Leaf;
 use crate::limits::StopReason;
+use crate::pack::Pack;
+use crate::turns::{End, Taken, Turn, take_all};
 
 /// Hypotheses of equal key that are expanded together.
 const ROUND: usize = 2048;
@@ -12,7 +14,7 @@ const ROUND: usize = 2048;
 /// Hypotheses that one thread takes at a time.
 const PIECE: usize = 64;
 
-impl<A: Appraise> Engine<A> {
+impl<A: Pack> Engine<A> {
     /// Expands the open hypotheses with the least bound until the answer is proved.
     pub(crate) fn least_bound_first(&mut self, context: Context<'_>) -> StopReason {
         let mut cursor = self.lend_cursor(context);
@@ -40,22 +42,28 @@ impl<A: Appraise> Engine<A> {
             let (whole, open): (Vec<_>, Vec<_>) =
                 settled.into_iter().partition(|leaf| leaf.depth() == context.travels());
             whole.into_iter().for_each(|leaf| self.judge(leaf));
-            self.expand(&open, context);
+            self.expand(open, context);
         };
         self.cursors.push(cursor);
         stop
     }
 
     /// Expands hypotheses together; what explains everything arrives at once.
-    fn expand(&mut self, turns: &[Leaf<A>], context: Context<'_>) {
-        let pieces: Vec<&[Leaf<A>]> = turns.chunks(PIECE).collect();
+    fn expand(&mut self, leaves: Vec<Leaf<A>>, context: Context<'_>) {
+        let turn = |leaf| Turn { leaf, reach: None, next: None, front: 0 };
+        let turns: Vec<Turn<A>> = leaves.into_iter().map(turn).collect();
         let (appraiser, tree) = (&self.appraiser, &self.tree);
-        let grown = context.crew.map(&pieces, context.experience, |cursor, piece| {
-            let grow = |leaf| appraiser.grow(leaf, cursor, tree, context);
-            piece.iter().map(grow).collect::<Vec<_>>()
+        let taken = take_all(&turns, tree, context, |turns| {
+            let pieces: Vec<&[Turn<A>]> = turns.chunks(PIECE).collect();
+            let taken = context.crew.map(&pieces, context.experience, |cursor, piece| {
+                piece.iter().map(|turn| turn.take(appraiser, cursor, tree, context)).collect::<Vec<_>>()
+            });
+            taken.into_iter().flatten().collect()
         });
-        for (leaf, grown) in turns.iter().zip(grown.into_iter().flatten()) {
-            self.enter(leaf, grown, context);
+        for Taken { leaf, end, .. } in taken {
+            if let End::Grown(grown) = end {
+                self.enter(&leaf, grown, context);
+            }
         }
     }
 }

@@ -8,10 +8,10 @@ use hssh_causal::Exploration;
 use hssh_metrics::Pose;
 use hssh_search::{
     CheckpointError, Checkpoints, Keeper, Limits, MapPrior, Mapper, MapperBuilder, MapperError, Monitor,
-    Order, PosteriorModel, Proving, RankedMap, Report, Source, StopReason,
+    Order, PosteriorModel, Proving, RankedMap, ReadAnswer, Reader, Report, Source, StopReason,
 };
 use hssh_topology::{Axioms, Derivation, Outcome, Simplicity};
-use hssh_world::{DriftModel, grid, snake};
+use hssh_world::{DriftModel, ErrorRates, grid, snake};
 use proptest::prelude::*;
 
 use crate::cases::{grid_walk, planar};
@@ -19,7 +19,7 @@ use crate::threads::STRATEGIES;
 
 /// Keeps all checkpoints in memory, and gives the last one.
 #[derive(Debug, Default)]
-struct Shelf(Mutex<Vec<Vec<u8>>>);
+pub(crate) struct Shelf(Mutex<Vec<Vec<u8>>>);
 
 impl Keeper for Shelf {
     fn keep(&self, write: &mut dyn FnMut(&mut dyn Write) -> io::Result<()>) {
@@ -35,25 +35,25 @@ impl Keeper for Shelf {
 }
 
 impl Shelf {
-    fn with(bytes: Vec<u8>) -> Arc<Self> {
+    pub(crate) fn with(bytes: Vec<u8>) -> Arc<Self> {
         Arc::new(Shelf(Mutex::new(vec![bytes])))
     }
 
-    fn take(&self) -> Vec<Vec<u8>> {
+    pub(crate) fn take(&self) -> Vec<Vec<u8>> {
         std::mem::take(&mut self.0.lock().unwrap())
     }
 }
 
-fn kept_by(search: MapperBuilder, keeper: &Arc<Shelf>, every: Duration) -> MapperBuilder {
+pub(crate) fn kept_by(search: MapperBuilder, keeper: &Arc<Shelf>, every: Duration) -> MapperBuilder {
     let keeper: Arc<dyn Keeper> = Arc::clone(keeper) as Arc<dyn Keeper>;
     search.checkpoints(Checkpoints { keeper, every })
 }
 
-const SELDOM: Duration = Duration::from_secs(1000);
+pub(crate) const SELDOM: Duration = Duration::from_secs(1000);
 
 /// Everything that a search has to say but the time that it took.
 #[derive(PartialEq, Debug)]
-struct End {
+pub(crate) struct End {
     report: Report,
     maps: Vec<RankedMap>,
     certificate: Option<String>,
@@ -61,7 +61,7 @@ struct End {
     poses: Vec<Vec<Pose>>,
 }
 
-fn end(mapper: &Mapper, exploration: &Exploration) -> End {
+pub(crate) fn end(mapper: &Mapper, exploration: &Exploration) -> End {
     let tree = mapper.tree();
     let maps = mapper.maps(usize::MAX);
     End {
@@ -269,4 +269,67 @@ proptest! {
         prop_assume!(&checkpoint != whole);
         prop_assert!(refusal(search, walk, checkpoint).is_some());
     }
+}
+
+/// Everything that a search for accounts has to say but the time that it took.
+fn told(reader: &Reader, exploration: &Exploration) -> (StopReason, String) {
+    let answer = reader.read(exploration).unwrap();
+    (answer.stop, format!("{:?}", ReadAnswer { seconds: 0.0, ..answer }))
+}
+
+#[test]
+fn accounts_of_errors() {
+    let world = grid(3, 3, 8.0).unwrap();
+    let route = world.route_through(&snake(3, 3)).unwrap();
+    let misperceived = world.misperceive(&route, &DriftModel::default(), ErrorRates::all(0.1), 2).unwrap();
+    let exploration = misperceived.exploration;
+    let model = PosteriorModel::evidence(&exploration).unwrap();
+    let reader = Reader { axioms: planar(), best: 2, patience: Some(300), ..Reader::new(model) };
+    let (stop, whole) = told(&reader, &exploration);
+    assert_eq!(stop, StopReason::Found);
+    let kept = |shelf: &Arc<Shelf>, every| {
+        let keeper: Arc<dyn Keeper> = Arc::clone(shelf) as Arc<dyn Keeper>;
+        Reader { checkpoints: Some(Checkpoints { keeper, every }), ..reader.clone() }
+    };
+
+    // In pieces, each gone on with by another search.
+    let shelf = Arc::new(Shelf::default());
+    let mut stops = 0;
+    let in_pieces = loop {
+        let limits = Limits { nodes: Some((stops + 1) * 120), ..Limits::default() };
+        let (stop, told) = told(&Reader { limits, ..kept(&shelf, SELDOM) }, &exploration);
+        if stop != StopReason::NodeLimit {
+            break told;
+        }
+        stops += 1;
+    };
+    assert!(stops > 2, "{stops} stops");
+    assert_eq!(in_pieces, whole);
+    // What the last one keeps has the answer.
+    assert_eq!(told(&kept(&shelf, SELDOM), &exploration).1, whole);
+
+    // With a checkpoint whenever limits are looked at.
+    let shelf = Arc::new(Shelf::default());
+    assert_eq!(told(&kept(&shelf, Duration::ZERO), &exploration).1, whole);
+    let all = shelf.take();
+    let step = all.len().div_ceil(7);
+    for checkpoint in all.into_iter().step_by(step) {
+        assert_eq!(told(&kept(&Shelf::with(checkpoint), SELDOM), &exploration).1, whole);
+    }
+}
+
+#[test]
+fn a_checkpoint_of_other_prices_of_errors_is_refused() {
+    let world = grid(3, 3, 8.0).unwrap();
+    let route = world.route_through(&snake(3, 3)).unwrap();
+    let exploration = world.explore_with_odometry(&route, &DriftModel::default(), 1).unwrap();
+    let shelf = Arc::new(Shelf::default());
+    let keeper: Arc<dyn Keeper> = Arc::clone(&shelf) as Arc<dyn Keeper>;
+    let model = PosteriorModel::evidence(&exploration).unwrap();
+    let checkpoints = Some(Checkpoints { keeper, every: SELDOM });
+    let reader = Reader { axioms: planar(), patience: Some(10), checkpoints, ..Reader::new(model) };
+    reader.read(&exploration).unwrap();
+    let others = Reader { bearing_deviation: None, ..reader };
+    let refused = others.read(&exploration).unwrap_err();
+    assert!(matches!(refused, MapperError::Checkpoint(CheckpointError::Options)), "{refused}");
 }

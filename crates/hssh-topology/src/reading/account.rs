@@ -1,5 +1,7 @@
 //! Accounts: a chart, and where the robot is in it, after so many travels.
 
+use serde::{Deserialize, Serialize};
+
 use super::chart::{Chart, ChartEnd};
 use super::matching::{Element, Reading, Sight};
 use super::way::{Arrival, Hop, Way};
@@ -7,7 +9,7 @@ use crate::ids::{Olp, PlaceId};
 use crate::star::Star;
 
 /// One explanation of an exploration with errors: what the robot's surroundings are, and where in them it is.
-#[derive(Clone, PartialEq, Debug)]
+#[derive(Clone, PartialEq, Debug, Serialize, Deserialize)]
 pub struct Account {
     /// What there is.
     pub chart: Chart,
@@ -20,7 +22,7 @@ pub struct Account {
 }
 
 /// The robot has left a place, and what it took for another one was none.
-#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Serialize, Deserialize)]
 pub struct Underway {
     /// The end that it left by.
     pub exit: ChartEnd,

@@ -2,6 +2,8 @@
 
 use std::sync::Arc;
 
+use serde::{Deserialize, Serialize};
+
 use super::model::Sightings;
 use crate::axioms::Axioms;
 use crate::ids::{MapOlp, Olp, PlaceId, StarId};
@@ -9,7 +11,7 @@ use crate::map::TopologicalMap;
 use crate::star::{OlpName, Passability, Sign, Star, StarEnd};
 
 /// An end of a place of a [`Chart`]: numbered in order of creation, whatever its position in the star.
-#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug, Serialize, Deserialize)]
 pub struct ChartEnd(u32);
 
 impl ChartEnd {
@@ -21,7 +23,7 @@ impl ChartEnd {
 }
 
 /// What is known of an end.
-#[derive(Clone, PartialEq, Debug)]
+#[derive(Clone, PartialEq, Debug, Serialize, Deserialize)]
 pub struct EndRecord {
     /// Its place.
     pub place: PlaceId,
@@ -30,6 +32,7 @@ pub struct EndRecord {
     /// Whether it is a gateway.
     pub open: bool,
     /// Its appearance, if it has one.
+    #[serde(with = "label")]
     pub label: Option<Arc<str>>,
     /// The end that it is linked to.
     pub link: Option<ChartEnd>,
@@ -39,7 +42,7 @@ pub struct EndRecord {
     pub sightings: Sightings,
 }
 
-#[derive(Clone, PartialEq, Debug)]
+#[derive(Clone, PartialEq, Debug, Serialize, Deserialize)]
 struct PlaceRecord {
     /// Clockwise.
     ends: Vec<ChartEnd>,
@@ -49,7 +52,7 @@ struct PlaceRecord {
 /// Places and links, as far as an exploration with errors has shown them. Unlike a [`TopologicalMap`], a chart can change
 /// anywhere: a place gains ends, or is inserted on a link. What its links make of paths, faces and boundary relations is computed when it is
 /// asked for.
-#[derive(Clone, PartialEq, Debug, Default)]
+#[derive(Clone, PartialEq, Debug, Default, Serialize, Deserialize)]
 pub struct Chart {
     places: Vec<PlaceRecord>,
     ends: Vec<EndRecord>,
@@ -59,8 +62,28 @@ pub struct Chart {
     through: Vec<[ChartEnd; 2]>,
 }
 
+/// Labels as plain text.
+mod label {
+    use std::sync::Arc;
+
+    use serde::{Deserialize, Deserializer, Serialize, Serializer};
+
+    pub(super) fn serialize<S: Serializer>(
+        label: &Option<Arc<str>>,
+        serializer: S,
+    ) -> Result<S::Ok, S::Error> {
+        label.as_deref().serialize(serializer)
+    }
+
+    pub(super) fn deserialize<'de, D: Deserializer<'de>>(
+        deserializer: D,
+    ) -> Result<Option<Arc<str>>, D::Error> {
+        Ok(Option::<String>::deserialize(deserializer)?.map(Arc::from))
+    }
+}
+
 /// On which side of the way along a link a junction has its stem.
-#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug, Serialize, Deserialize)]
 pub enum Side {
     /// Right of the way.
     Right,
@@ -196,6 +219,21 @@ impl Chart {
             (joined[from.index()], joined[to.index()]) = (true, true);
         }
         axioms.violated_by_boundaries(&map).is_none().then_some(map)
+    }
+
+    /// Whether whatever its parts refer to is there: a chart that was read may have been written by anybody.
+    #[must_use]
+    pub fn is_sound(&self) -> bool {
+        let is_end = |end: &ChartEnd| end.index() < self.ends.len();
+        let is_record = |record: &EndRecord| {
+            record.place.index() < self.places.len()
+                && is_end(&record.opposite)
+                && record.link.as_ref().is_none_or(is_end)
+        };
+        let of_places =
+            self.places.iter().all(|place| !place.ends.is_empty() && place.ends.iter().all(is_end));
+        let pairs = self.links.iter().chain(&self.through);
+        of_places && self.ends.iter().all(is_record) && pairs.flatten().all(is_end)
     }
 
     /// Adds a place that looks like that; its ends by those of the star. It was not visited yet.

@@ -1,12 +1,14 @@
 //! Readings: how the ends of a star as seen correspond to those of a place.
 
+use serde::{Deserialize, Serialize};
+
 use super::chart::{Chart, ChartEnd};
 use super::model::ReadingModel;
 use crate::ids::{Olp, PlaceId};
 use crate::star::Star;
 
 /// One element of the merged clockwise sequence of what was seen and what is known.
-#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug, Serialize, Deserialize)]
 pub enum Element {
     /// An end of the star is that end of the place.
     Matched(Olp, ChartEnd),
@@ -17,7 +19,7 @@ pub enum Element {
 }
 
 /// How a star, seen on coming into a place by `entry`, corresponds to the star of the place.
-#[derive(Clone, PartialEq, Debug)]
+#[derive(Clone, PartialEq, Debug, Serialize, Deserialize)]
 pub struct Reading {
     /// The place.
     pub place: PlaceId,

@@ -100,7 +100,7 @@ pub(super) fn nats(probability: f64) -> f64 {
 }
 
 /// What was seen of an open end so far.
-#[derive(Clone, Copy, PartialEq, Eq, Hash, Debug, Default)]
+#[derive(Clone, Copy, PartialEq, Eq, Hash, Debug, Default, Serialize, Deserialize)]
 pub struct Sightings {
     /// On how many visits it was seen.
     pub shown: u32,

@@ -1,11 +1,13 @@
 //! Ways: what one travel may have been, if perception errs.
 
+use serde::{Deserialize, Serialize};
+
 use super::chart::{ChartEnd, Side};
 use super::matching::Reading;
 use crate::ids::Olp;
 
 /// One way in which a travel follows from an [`Account`](super::Account).
-#[derive(Clone, PartialEq, Debug)]
+#[derive(Clone, PartialEq, Debug, Serialize, Deserialize)]
 pub struct Way {
     /// The places passed without a report, in order.
     pub hops: Vec<Hop>,
@@ -16,7 +18,7 @@ pub struct Way {
 }
 
 /// A place that was passed without a report.
-#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug, Serialize, Deserialize)]
 pub enum Hop {
     /// A place of the chart, from one of its ends to another. If the robot left by a pending end, that is linked to `enter`.
     Pass {
@@ -42,7 +44,7 @@ pub enum Hop {
 }
 
 /// Where a travel leads.
-#[derive(Clone, PartialEq, Debug)]
+#[derive(Clone, PartialEq, Debug, Serialize, Deserialize)]
 pub enum Arrival {
     /// To the place that its link leads to.
     Predicted(Reading),

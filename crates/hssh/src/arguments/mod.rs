@@ -80,6 +80,10 @@ pub(crate) struct MapArguments {
     /// With --checkpoint: so much time is between two, at least.
     #[arg(long, value_name = "SECONDS", value_parser = positive, default_value_t = 60.0, requires = "checkpoint", help_heading = "Limits")]
     pub(crate) checkpoint_every: f64,
+    /// Beyond --max-memory, keep hypotheses that wait for their turn in a file in this folder, and go on. The file has no name, and is gone when the
+    /// program is. Searches level by level and counts keep nothing there.
+    #[arg(long, value_name = "FOLDER", help_heading = "Limits")]
+    pub(crate) spill: Option<PathBuf>,
     #[cfg(feature = "cluster")]
     #[command(flatten)]
     pub(crate) processes: ProcessArguments,

@@ -1,4 +1,4 @@
-//! The command line of counts that are spread over processes.
+//! The command line of searches that are spread over processes.
 
 use std::path::PathBuf;
 
@@ -6,10 +6,10 @@ use clap::Args;
 
 #[derive(Debug, Args)]
 pub(crate) struct ProcessArguments {
-    /// With --search count: count by so many processes of this machine, each with one thread.
+    /// Search by so many processes of this machine, each with one thread; not best-first, and not with --readings.
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..=512), conflicts_with = "hosts", help_heading = "Processes")]
     pub(crate) workers: Option<u64>,
-    /// With --search count: count by the processes whose addresses (host:port) are the lines of this file. On each the same command is started with its
+    /// Search by the processes whose addresses (host:port) are the lines of this file. On each the same command is started with its
     /// own --process; the first one answers.
     #[arg(long, value_name = "FILE", requires = "process", help_heading = "Processes")]
     pub(crate) hosts: Option<PathBuf>,

@@ -27,6 +27,10 @@ pub(crate) fn run(arguments: &LiveArguments) -> Result<Status, Failure> {
         let help = "--checkpoint is of a search that begins with everything: leave it out where the robot still drives";
         return Err(Failure::Usage(help.to_owned()));
     }
+    if map::is_spread(&arguments.map) {
+        let help = "--workers and --hosts are for searches that begin with everything: leave them out where the robot still drives";
+        return Err(Failure::Usage(help.to_owned()));
+    }
     let options = map::checked_options(&arguments.map)?;
     let hub = Arc::new(Hub::default());
     let server = PageServer::start(arguments.port, html(&file.display().to_string()), &hub)

@@ -4,6 +4,7 @@ mod checkpoint;
 mod place;
 mod replace;
 mod robot;
+mod spill;
 
 use std::io::Write;
 use std::path::Path;
@@ -16,6 +17,7 @@ use crate::terminal::{harmless, say};
 pub(crate) use checkpoint::CheckpointFile;
 pub(crate) use place::{check_folder, check_outputs, refuse_input};
 pub(crate) use robot::{grid_image, to_tum, write_grid, write_tum};
+pub(crate) use spill::SpillFile;
 
 /// Prints text to standard output; nothing in it commands the terminal.
 pub(crate) fn print(text: &str) -> Result<(), Failure> {

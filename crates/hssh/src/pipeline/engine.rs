@@ -21,21 +21,45 @@ use crate::answer::{
     Worth,
 };
 
-pub use hssh_search::{Checkpoints, Keeper, Monitor, Source};
+pub use hssh_search::{Checkpoints, Keeper, Monitor, Source, Store};
 
 /// How much more alike pairs of visits look than places at random.
 pub(crate) type Likeness = Appearance;
 
-/// Who counts instead of this process alone; the report, or nothing if another process has it.
-pub type CountBy<'a> = dyn Fn(MapperBuilder, &Exploration) -> Result<Option<Report>, PipelineError> + 'a;
+/// Several processes that search instead of this one alone. The answer is that of one; nothing where another process has it.
+pub trait Searchers {
+    /// Counts hypotheses.
+    ///
+    /// # Errors
+    /// If the count cannot begin, or a process is lost.
+    fn count(
+        &self,
+        search: MapperBuilder,
+        exploration: &Exploration,
+    ) -> Result<Option<Report>, PipelineError>;
+
+    /// Searches for maps.
+    ///
+    /// # Errors
+    /// If the search cannot begin, or a process is lost.
+    fn explain(
+        &self,
+        search: MapperBuilder,
+        exploration: &Exploration,
+    ) -> Result<Option<Mapper>, PipelineError>;
+}
 
 /// Means of a search that this process does not have by itself.
 #[derive(Default)]
 pub struct Means<'a> {
     /// Where its state is kept from time to time.
     pub checkpoints: Option<Checkpoints>,
-    /// Who counts, where hypotheses are only counted.
-    pub count: Option<&'a CountBy<'a>>,
+    /// The same of the search for readings that comes before that.
+    pub reading_checkpoints: Option<Checkpoints>,
+    /// Where hypotheses are kept for which the limit on memory leaves no room.
+    pub store: Option<Arc<dyn Store>>,
+    /// Who searches.
+    pub searchers: Option<&'a dyn Searchers>,
 }
 
 /// What to search.
@@ -87,7 +111,11 @@ impl Task<'_> {
         if self.method == SearchMethod::Count {
             return self.count();
         }
-        let mapper = self.mapper_builder()?.explain(self.exploration).map_err(SearchFailure::from)?;
+        let search = self.mapper_builder()?;
+        let mapper = match self.means.searchers {
+            Some(all) => all.explain(search, self.exploration)?.ok_or(PipelineError::AnsweredElsewhere)?,
+            None => search.explain(self.exploration).map_err(SearchFailure::from)?,
+        };
         Ok(Searched::of(Box::new(mapper), self.method, self.options))
     }
 
@@ -113,9 +141,9 @@ impl Task<'_> {
     }
 
     fn count(self) -> Result<Searched, PipelineError> {
-        let report = match self.means.count {
-            Some(count) => {
-                count(self.builder(), self.exploration)?.ok_or(PipelineError::AnsweredElsewhere)?
+        let report = match self.means.searchers {
+            Some(all) => {
+                all.count(self.builder(), self.exploration)?.ok_or(PipelineError::AnsweredElsewhere)?
             }
             None => self.builder().count(self.exploration).map_err(SearchFailure::from)?,
         };
@@ -134,8 +162,9 @@ impl Task<'_> {
             Some(GenusOrder::First) => GenusRank::First,
             Some(GenusOrder::Last) => GenusRank::Last,
         };
-        let builder =
-            self.means.checkpoints.clone().into_iter().fold(Mapper::builder(), MapperBuilder::checkpoints);
+        let Means { checkpoints, store, .. } = self.means;
+        let builder = checkpoints.clone().into_iter().fold(Mapper::builder(), MapperBuilder::checkpoints);
+        let builder = store.clone().into_iter().fold(builder, MapperBuilder::spilling);
         builder
             .axioms(self.options.axioms)
             .preference(Preference { genus })

@@ -78,9 +78,6 @@ pub enum PipelineError {
     /// Another process has the answer.
     #[error("the search is spread over processes, the first of which has the answer")]
     AnsweredElsewhere,
-    /// The search for accounts of errors keeps no checkpoints.
-    #[error("a search that reckons with errors of perception keeps no checkpoints")]
-    KeptReadings,
     /// An account that makes no exploration.
     #[error(
         "the account makes no exploration: {0}\nhelp: this is a bug in hssh; please report it with the exploration"
@@ -119,6 +116,9 @@ pub enum SearchFailure {
     /// There is a checkpoint that the search cannot go on from.
     #[error("cannot go on from the checkpoint: {0}")]
     Checkpoint(CheckpointError),
+    /// The same of the search for readings.
+    #[error("cannot go on from the checkpoint of the search for readings: {0}")]
+    ReadingCheckpoint(CheckpointError),
     /// A map that cannot be placed by its odometry.
     #[error("cannot place the map by its odometry: {0}")]
     Placement(#[from] PlacementError),

@@ -14,7 +14,7 @@ mod reading;
 mod scans;
 mod tracked;
 
-pub use engine::{Checkpoints, CountBy, Keeper, Means, Monitor, Source};
+pub use engine::{Checkpoints, Keeper, Means, Monitor, Searchers, Source, Store};
 pub use error::{PipelineError, SearchFailure};
 pub use input::{Input, SurveyedLog};
 pub use laser::LaserChoice;
@@ -85,7 +85,7 @@ pub fn map(input: &Input, options: &MappingOptions, monitor: &Arc<Monitor>) -> R
 /// The same with other means than those of this process.
 ///
 /// # Errors
-/// As [`map`], and if what was kept is of another search or damaged, or if errors of perception are reckoned with, which no means help.
+/// As [`map`], and if what was kept is of another search or damaged, or a process is lost.
 pub fn map_with(
     input: &Input,
     options: &MappingOptions,
@@ -109,19 +109,28 @@ pub fn map_with(
     let read = match options.readings.model {
         None => None,
         Some(_) if input.surveyed.is_some() => return Err(PipelineError::ReadingsOfLog),
-        Some(_) if means.checkpoints.is_some() => return Err(PipelineError::KeptReadings),
         Some(_) if exploration.travels().iter().any(|travel| travel.odometry.is_none()) => {
             return Err(PipelineError::UnmeasuredReadings);
         }
         Some(model) => {
             let posterior = engine::model(&exploration, &options)?;
-            Some(reading::read(&exploration, model, posterior, &options, monitor)?)
+            Some(reading::read(&exploration, model, posterior, &options, monitor, means)?)
         }
     };
-    if let Some(reading::Read { exploration, account }) = read {
+    if let Some(reading::Read { exploration, account, stop }) = read {
         let corrected = Input::exploration(input.name.clone(), exploration);
         let exact = options.given(&account);
-        let mut mapped = map(&corrected, &exact, monitor)?;
+        // What is not read to its end will be read otherwise when it is gone on with.
+        let checkpoints = means.checkpoints.clone().filter(|_| stop.is_complete());
+        let mut mapped = map_with(
+            &corrected,
+            &exact,
+            monitor,
+            &Means { checkpoints, store: means.store.clone(), ..Means::default() },
+        )?;
+        if !stop.is_complete() {
+            mapped.answer.search.stop = stop;
+        }
         mapped.rest_on(account, warnings);
         mapped.corrected = Some(corrected.exploration);
         return Ok(mapped);

@@ -3,10 +3,11 @@
 use std::sync::Arc;
 
 use hssh_causal::Exploration;
-use hssh_search::{Correction, Monitor, PosteriorModel, ReadMap, Reader};
+use hssh_search::{Correction, MapperError, Monitor, PosteriorModel, ReadMap, Reader, StopReason};
 use hssh_topology::{ChartEnd, PlaceId, ReadingModel};
 use serde::{Deserialize, Serialize};
 
+use super::engine::Means;
 use super::error::{PipelineError, SearchFailure};
 use super::options::MappingOptions;
 use crate::answer::{CorrectionKind, ReadingAccount, ReadingCorrection, counted};
@@ -31,6 +32,8 @@ impl Default for ReadingChoice {
 pub(super) struct Read {
     pub(super) exploration: Exploration,
     pub(super) account: ReadingAccount,
+    /// Why the search for it ended.
+    pub(super) stop: StopReason,
 }
 
 /// The most probable account of an exploration, by the model of `options`.
@@ -40,6 +43,7 @@ pub(super) fn read(
     posterior: PosteriorModel,
     options: &MappingOptions,
     monitor: &Arc<Monitor>,
+    means: &Means<'_>,
 ) -> Result<Read, PipelineError> {
     let reader = Reader {
         reading,
@@ -50,9 +54,14 @@ pub(super) fn read(
         limits: options.limits.of_search(),
         threads: options.search.threads,
         monitor: Arc::clone(monitor),
+        checkpoints: means.reading_checkpoints.clone(),
+        store: means.store.clone(),
         ..Reader::new(posterior)
     };
-    let answer = reader.read(exploration).map_err(SearchFailure::from)?;
+    let answer = reader.read(exploration).map_err(|error| match error {
+        MapperError::Checkpoint(error) => SearchFailure::ReadingCheckpoint(error),
+        error => error.into(),
+    })?;
     let Some(best) = answer.maps.first() else {
         return Err(PipelineError::NoAccount { stop: answer.stop });
     };
@@ -79,7 +88,7 @@ pub(super) fn read(
         corrections: corrections.iter().map(|correction| told(correction, best, number)).collect(),
         visits,
     };
-    Ok(Read { exploration: corrected.exploration, account })
+    Ok(Read { exploration: corrected.exploration, account, stop: answer.stop })
 }
 
 /// A correction in words.

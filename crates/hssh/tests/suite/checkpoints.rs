@@ -66,6 +66,13 @@ fn a_search_by_posterior_goes_on_after_it_was_killed() {
 }
 
 #[test]
+fn a_search_that_reckons_with_errors_goes_on_after_it_was_killed() {
+    survives_kills("readings", 4, true, &["--readings", "--planar", "--travels", "24"]);
+    let readings = scratch("checkpoints").join("readings.checkpoint.readings");
+    assert!(!readings.exists(), "what came to its end leaves no checkpoint");
+}
+
+#[test]
 fn a_search_that_is_stopped_says_how_to_go_on() {
     let file = snake_walk("checkpoints", "stopped.ron", 5, false);
     let checkpoint = scratch("checkpoints").join("stopped.checkpoint");

@@ -1,6 +1,6 @@
 //! Searches by this process alone: the program was built without those that are spread over several.
 
-use hssh::pipeline::{Checkpoints, Input, Mapped, MappingOptions, Means};
+use hssh::pipeline::{Input, Mapped, MappingOptions, Means};
 
 use super::search::searched;
 use crate::arguments::MapArguments;
@@ -11,12 +11,17 @@ pub(super) fn is_helper(_: &MapArguments) -> bool {
     false
 }
 
+/// Whether several processes are asked for.
+pub(crate) fn is_spread(_: &MapArguments) -> bool {
+    false
+}
+
 /// Searches.
 pub(super) fn spread(
     _: &MapArguments,
     input: &Input,
     options: &MappingOptions,
-    checkpoints: Option<Checkpoints>,
+    kept: Means<'_>,
 ) -> Result<Mapped, Failure> {
-    searched(input, options, &Means { checkpoints, count: None })
+    searched(input, options, &kept)
 }

@@ -8,11 +8,15 @@ mod processes;
 mod processes;
 mod search;
 
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::time::Duration;
 
 use hssh::answer::Listing;
-use hssh::pipeline::{Checkpoints, Input, Mapped, MappingOptions, PipelineError, SearchMethod, SurveyedLog};
+use hssh::pipeline::{
+    Checkpoints, Input, Keeper, Mapped, MappingOptions, Means, PipelineError, SearchMethod, Store,
+    SurveyedLog,
+};
 
 use crate::arguments::MapArguments;
 use crate::command::export::write_maps;
@@ -20,8 +24,9 @@ use crate::command::page;
 use crate::command::stages::draw_survey;
 use crate::failure::{Failure, Status};
 use crate::input::{read_input, refuse_partial};
-use crate::output::{CheckpointFile, Written, print, write_file};
+use crate::output::{CheckpointFile, SpillFile, Written, print, write_file};
 
+pub(crate) use processes::is_spread;
 pub(crate) use search::searched;
 
 pub(crate) fn run(arguments: &MapArguments) -> Result<Status, Failure> {
@@ -66,9 +71,10 @@ pub(crate) fn answer(
         (Some(surveyed), Some(folder)) => draw_survey(&surveyed.log, &surveyed.survey, folder)?,
         (Some(_), None) => {}
     }
-    let file = arguments.checkpoint.as_deref().map(|file| Arc::new(CheckpointFile::new(file)));
-    let mapped = processes::spread(arguments, input, options, kept(arguments, file.clone()));
-    let mut mapped = mapped.map_err(|failure| failure.of_checkpoint(arguments.checkpoint.as_deref()))?;
+    let names = arguments.checkpoint.as_deref().map(checkpoint_files);
+    let files = names.as_ref().map(|names| names.each_ref().map(|name| Arc::new(CheckpointFile::new(name))));
+    let mapped = processes::spread(arguments, input, options, means(arguments, files.as_ref())?);
+    let mut mapped = mapped.map_err(|failure| failure.of_checkpoint(names.as_ref()))?;
     if arguments.with_trajectory {
         mapped.carry_trajectories(input);
     }
@@ -105,25 +111,46 @@ pub(crate) fn answer(
     }
     draw::draw(arguments, input, &mapped, &mut written)?;
     write_maps(&arguments.file, &arguments.files, arguments.rank, (input, &mapped), &mut written);
-    if let Some(file) = file {
-        let is_complete = mapped.answer.search.stop.is_complete();
+    let is_complete = mapped.answer.search.stop.is_complete();
+    for file in files.into_iter().flatten() {
         written.note(if is_complete { file.remove() } else { file.leave() });
     }
     written.done()?;
     Ok(Status::of(&mapped.answer))
 }
 
-/// How the search is kept, if it is.
-fn kept(arguments: &MapArguments, file: Option<Arc<CheckpointFile>>) -> Option<Checkpoints> {
+/// Where the search is kept, and the search for readings that comes before it: in a file beside that.
+fn checkpoint_files(file: &Path) -> [PathBuf; 2] {
+    let mut readings = file.as_os_str().to_owned();
+    readings.push(".readings");
+    [file.to_owned(), readings.into()]
+}
+
+/// How the search is kept, and what does not fit into memory, as far as that was asked for.
+fn means(
+    arguments: &MapArguments,
+    files: Option<&[Arc<CheckpointFile>; 2]>,
+) -> Result<Means<'static>, Failure> {
     let every = Duration::try_from_secs_f64(arguments.checkpoint_every).unwrap_or(Duration::MAX);
-    file.map(|keeper| Checkpoints { keeper, every })
+    let [checkpoints, reading_checkpoints] = match files {
+        Some(files) => files.each_ref().map(|file| {
+            let keeper = Arc::clone(file) as Arc<dyn Keeper>;
+            Some(Checkpoints { keeper, every })
+        }),
+        None => [None, None],
+    };
+    let store = match &arguments.spill {
+        Some(folder) => Some(Arc::new(SpillFile::in_folder(folder)?) as Arc<dyn Store>),
+        None => None,
+    };
+    Ok(Means { checkpoints, reading_checkpoints, store, searchers: None })
 }
 
 /// Takes part in a search whose answer another process gives.
 fn help(arguments: &MapArguments) -> Result<Status, Failure> {
     let options = arguments.options()?;
     let input = read_input(&arguments.file, &options, &arguments.laser.topics)?;
-    match processes::spread(arguments, &input, &options, None) {
+    match processes::spread(arguments, &input, &options, Means::default()) {
         Err(Failure::Pipeline(error)) if matches!(*error, PipelineError::AnsweredElsewhere) => {
             Ok(Status::Found)
         }

@@ -1,4 +1,4 @@
-//! Counts spread over processes: those of this machine are started here, those on others by whoever has them.
+//! Searches spread over processes: those of this machine are started here, those on others by whoever has them.
 
 use std::ffi::OsString;
 use std::fs;
@@ -10,11 +10,11 @@ use std::thread::{self, JoinHandle};
 use std::time::{Duration, Instant};
 
 use hssh::pipeline::{
-    Checkpoints, Input, Mapped, MappingOptions, Means, Monitor, PipelineError, SearchFailure, SearchMethod,
+    Input, Mapped, MappingOptions, Means, PipelineError, SearchFailure, SearchMethod, Searchers,
 };
 use hssh_causal::Exploration;
-use hssh_cluster::{ClusterError, Hosts, HostsError, count, report_loss};
-use hssh_search::{MapperBuilder, Report};
+use hssh_cluster::{ClusterError, Hosts, HostsError, count, explain, report_loss};
+use hssh_search::{Mapper, MapperBuilder, Report};
 
 use super::search::searched;
 use crate::arguments::MapArguments;
@@ -33,22 +33,25 @@ pub(super) fn is_helper(arguments: &MapArguments) -> bool {
     arguments.processes.process.is_some_and(|process| process > 0)
 }
 
+/// Whether several processes are asked for.
+pub(crate) fn is_spread(arguments: &MapArguments) -> bool {
+    arguments.processes.workers.is_some() || arguments.processes.hosts.is_some()
+}
+
 /// Searches, by the processes that were asked for.
 pub(super) fn spread(
     arguments: &MapArguments,
     input: &Input,
     options: &MappingOptions,
-    checkpoints: Option<Checkpoints>,
+    kept: Means<'_>,
 ) -> Result<Mapped, Failure> {
     let Some(processes) = Processes::of(arguments, options)? else {
-        return searched(input, options, &Means { checkpoints, count: None });
+        return searched(input, options, &kept);
     };
-    let count =
-        |search: MapperBuilder, exploration: &Exploration| processes.count(search, exploration, &monitor());
-    searched(input, options, &Means { checkpoints, count: Some(&count) })
+    searched(input, options, &Means { searchers: Some(&processes), ..kept })
 }
 
-/// The processes of a count.
+/// The processes of a search.
 struct Processes {
     hosts: Hosts,
     /// Those that were started here.
@@ -69,12 +72,15 @@ impl Processes {
     /// If the search cannot be spread, the addresses are none, or processes cannot be started.
     fn of(arguments: &MapArguments, options: &MappingOptions) -> Result<Option<Self>, Failure> {
         let asked = &arguments.processes;
-        if asked.workers.is_none() && asked.hosts.is_none() {
+        if !is_spread(arguments) {
             return Ok(None);
         }
-        if options.search.method != Some(SearchMethod::Count) {
-            let help =
-                "--workers and --hosts spread counts over processes: add --search count, or leave them out";
+        if matches!(options.search.method, Some(SearchMethod::BestFirst | SearchMethod::PosteriorBestFirst)) {
+            let help = "best-first goes from one hypothesis to the next, which several processes cannot share: choose another --search, or leave out --workers and --hosts";
+            return Err(Failure::Usage(help.to_owned()));
+        }
+        if options.readings.model.is_some() {
+            let help = "a search that reckons with errors of perception is not spread over processes: leave out --readings, or --workers and --hosts";
             return Err(Failure::Usage(help.to_owned()));
         }
         if arguments.file == Path::new("-") {
@@ -95,24 +101,34 @@ impl Processes {
         Ok(Some(Processes { hosts, started: Some(started) }))
     }
 
-    /// Counts; nothing if another process has the answer.
-    ///
-    /// # Errors
-    /// If the count cannot begin, or a process is lost.
+    /// The search is over; in the words of the pipeline.
+    fn ended<T>(&self, end: Result<T, ClusterError>) -> Result<T, PipelineError> {
+        if let Some(started) = &self.started {
+            started.is_over.store(true, Ordering::Relaxed);
+        }
+        end.map_err(|error| match error {
+            ClusterError::Search(error) => SearchFailure::from(error).into(),
+            error => PipelineError::Elsewhere(Box::new(error)),
+        })
+    }
+}
+
+impl Searchers for Processes {
     fn count(
         &self,
         search: MapperBuilder,
         exploration: &Exploration,
-        monitor: &Arc<Monitor>,
     ) -> Result<Option<Report>, PipelineError> {
-        let counted = count(search, exploration, &self.hosts, monitor);
-        if let Some(started) = &self.started {
-            started.is_over.store(true, Ordering::Relaxed);
-        }
-        counted.map_err(|error| match error {
-            ClusterError::Search(error) => SearchFailure::from(error).into(),
-            error => PipelineError::Elsewhere(Box::new(error)),
-        })
+        self.ended(count(search, exploration, &self.hosts, &monitor()))
+    }
+
+    /// Each process has one thread: more processes are what there is instead.
+    fn explain(
+        &self,
+        search: MapperBuilder,
+        exploration: &Exploration,
+    ) -> Result<Option<Mapper>, PipelineError> {
+        self.ended(explain(search.threads(1), exploration, &self.hosts, &monitor()))
     }
 }
 
