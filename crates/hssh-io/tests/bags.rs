@@ -70,6 +70,30 @@ fn beams_end_on_walls_in_bags_of_every_kind() {
     }
 }
 
+/// They call their frames alike, and are told apart by the names of topics.
+#[test]
+fn of_two_robots_each_has_its_own_odometry_and_frames() {
+    for (name, odometry) in [("two-robots", "odometry from /robot"), ("two-robots-tf", "odometry from /tf")] {
+        let read = |scan: Option<&str>| {
+            let options = RecordingOptions { scan: scan.map(str::to_owned), ..RecordingOptions::default() };
+            read_bag(&bag(name), &options).unwrap_or_else(|error| panic!("{name}: {error}"))
+        };
+        let first = read(None);
+        assert_eq!((first.log.scans.len(), warnings(&first.log).as_str()), (6, ""), "{name}");
+        assert!(off_walls(&first.log) < 1e-3, "{name}: {}", off_walls(&first.log));
+        assert!(first.used[1].starts_with(odometry), "{:?}", first.used);
+        let second = read(Some("/robot2/scan"));
+        let seen = second.log.scans.last().unwrap().odometry;
+        assert!(
+            (seen.theta - (1.0 - 0.3 * 11.0)).abs() < 1e-6,
+            "{name}: the laser is turned by 1 rad: {seen:?}"
+        );
+    }
+    let used = read_bag(&bag("two-robots"), &RecordingOptions::default()).unwrap().used;
+    assert!(used[0].ends_with("; not /robot2/scan, which --scan chooses"), "{used:?}");
+    assert!(used[1].starts_with("odometry from /robot1/odom"), "{used:?}");
+}
+
 #[test]
 fn what_is_asked_for_is_used() {
     let rear = RecordingOptions { scan: Some("rear".into()), ..RecordingOptions::default() };

@@ -72,7 +72,7 @@ pub use roadmap::{
     Connection, RegionPlace, RoadNode, RoadNodeKind, RoadNodeNumber, Roadmap, RoadmapOptions, Way,
 };
 pub use route::{RouteOptions, driven_line};
-pub use scan::Scan;
+pub use scan::{Scan, scan_around};
 pub use skeleton::{
     AxisPoint, EdgeEnd, FreeSpace, Skeleton, SkeletonEdge, SkeletonEdgeId, SkeletonNode, SkeletonNodeId,
     SkeletonOptions, Tip, UnknownSpace,

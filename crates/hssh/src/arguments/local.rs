@@ -8,6 +8,7 @@ use hssh::pipeline::{LaserChoice, PlaceChoice};
 use hssh_local::{PlaceOptions, RegionOptions, RoadmapOptions, UnknownSpace};
 
 use super::export::FilesArguments;
+use super::page::PageArguments;
 
 #[derive(Debug, Args)]
 pub(crate) struct ExploreArguments {
@@ -133,6 +134,8 @@ pub(crate) struct StarsArguments {
     /// Draw the map with its medial axis, gateways and stars as SVG.
     #[arg(long, value_name = "FILE")]
     pub(crate) svg: Option<PathBuf>,
+    #[command(flatten)]
+    pub(crate) page: PageArguments,
 }
 
 impl StarsArguments {
