@@ -92,8 +92,26 @@ fn rings(mut sides: BTreeMap<Corner, Vec<Corner>>) -> Vec<Vec<Corner>> {
             ring.push(next);
             (before, here) = (Some(here), next);
         }
-        rings.push(ring);
+        rings.extend(without_touches(ring));
     }
+    rings
+}
+
+/// A ring that comes to a corner twice as rings that do not: what it encloses between two cells that touch there is a hole.
+fn without_touches(ring: Vec<Corner>) -> Vec<Vec<Corner>> {
+    let mut rings = Vec::new();
+    let mut open: Vec<Corner> = Vec::with_capacity(ring.len());
+    let mut places: BTreeMap<Corner, usize> = BTreeMap::new();
+    for corner in ring {
+        if let Some(&place) = places.get(&corner) {
+            let inner = open.split_off(place);
+            inner.iter().for_each(|corner| drop(places.remove(corner)));
+            rings.push(inner);
+        }
+        places.insert(corner, open.len());
+        open.push(corner);
+    }
+    rings.push(open);
     rings
 }
 
@@ -145,6 +163,18 @@ fn straighten(line: &[[f64; 2]], off: f64, straight: &mut Vec<[f64; 2]>) {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    /// Cells around a hole that the last two close off only by touching in a corner.
+    #[test]
+    fn no_ring_touches_itself() {
+        let lattice = Lattice::new(3, 3, 1.0, [0.0, 0.0]).unwrap();
+        let is_in = |column: u32, row: u32| (column, row) != (1, 1) && (column, row) != (2, 2);
+        let labels: Vec<u32> =
+            lattice.cells().map(|cell| if is_in(cell.column, cell.row) { 0 } else { NO_PIECE }).collect();
+        let [outline] = &outlines(&labels, &lattice, 1, 0.0)[..] else { panic!("one region") };
+        let areas = |rings: &[Vec<[f64; 2]>]| rings.iter().map(|ring| signed_area(ring)).collect::<Vec<_>>();
+        assert_eq!((areas(&outline.around), areas(&outline.holes)), (vec![8.0], vec![-1.0]));
+    }
 
     /// A ring of cells around a hole, and a cell that touches it in a corner.
     #[test]

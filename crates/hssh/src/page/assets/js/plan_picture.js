@@ -39,8 +39,10 @@ function areaOf(region, number) {
   return svg("path", { ...chooses("region", number, label), class: "area", d, "data-color": region.color }, svg("title", {}, label));
 }
 
+// A name stands at a place of the region, for the middle of a corridor that goes around something is not in it.
 function areaName(region, number) {
-  const [x, y] = middleOf(region.outline[0]);
+  const place = state.account.places[region.places[0]];
+  const [x, y] = place ? place.center : middleOf(region.outline[0]);
   return svg("text", { class: "area-name", "data-at": `${x} ${-y}`, y: -14, "aria-hidden": "true" }, regionTitle(number));
 }
 
