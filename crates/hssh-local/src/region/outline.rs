@@ -105,7 +105,9 @@ fn without_touches(ring: Vec<Corner>) -> Vec<Vec<Corner>> {
     for corner in ring {
         if let Some(&place) = places.get(&corner) {
             let inner = open.split_off(place);
-            inner.iter().for_each(|corner| drop(places.remove(corner)));
+            for corner in &inner {
+                places.remove(corner);
+            }
             rings.push(inner);
         }
         places.insert(corner, open.len());
