@@ -151,6 +151,20 @@ fn logs(ring: &str) -> Vec<Fault> {
     let late = format!("{unlimited}{limit} nohost 0\n");
     let half = &ring.as_bytes()[..ring.len() / 3];
     vec![
+        fault(
+            "a second laser that is not there",
+            "map FILE --scan FLASER,RLASER",
+            ring,
+            2,
+            "the log has no RLASER messages; it has FLASER",
+        ),
+        fault(
+            "a laser by a topic's name",
+            "map FILE --scan /front",
+            ring,
+            2,
+            "go by the names of their messages: FLASER, ROBOTLASER1, RAWLASER1, RLASER, ROBOTLASER2",
+        ),
         fault("messages in lower case", map, lower, 0, right),
         fault("no limit of range", map, unlimited, 0, right),
         fault("the limit at the end", map, late, 0, right),
