@@ -27,7 +27,7 @@ pub(super) fn outlines(labels: &[u32], lattice: &Lattice, regions: usize, off: f
             let points: Vec<[f64; 2]> =
                 ring.iter().map(|corner| lattice.point(corner.map(f64::from))).collect();
             let area = signed_area(&points);
-            let ring = straightened(points, off);
+            let ring = straightened_apart(points, off);
             if ring.len() > 2 {
                 if area > 0.0 { outline.around.push(ring) } else { outline.holes.push(ring) }
             }
@@ -131,6 +131,46 @@ fn signed_area(ring: &[[f64; 2]]) -> f64 {
     twice.sum::<f64>() / 2.0
 }
 
+/// A ring that does not touch itself, with fewer corners: straightened as far as it still does not.
+fn straightened_apart(ring: Vec<[f64; 2]>, mut off: f64) -> Vec<[f64; 2]> {
+    const TRIES: usize = 4;
+    for _ in 0..TRIES {
+        let straight = straightened(ring.clone(), off);
+        if !touches_itself(&straight) {
+            return straight;
+        }
+        off /= 2.0;
+    }
+    straightened(ring, 0.0)
+}
+
+/// Whether two sides of a ring that do not follow one another meet.
+fn touches_itself(ring: &[[f64; 2]]) -> bool {
+    let side = |at: usize| [ring[at], ring[(at + 1) % ring.len()]];
+    let last = ring.len() - 1;
+    (0..ring.len()).any(|one| {
+        let others = one + 2..ring.len() - usize::from(one == 0);
+        others.filter(|_| last > 1).any(|other| meet(side(one), side(other)))
+    })
+}
+
+/// Whether two lines have a point in common.
+fn meet([a, b]: [[f64; 2]; 2], [c, d]: [[f64; 2]; 2]) -> bool {
+    /// Less is what is lost of a product of lengths.
+    const NOTHING: f64 = 1e-9;
+    let is_apart = |axis: usize| {
+        a[axis].max(b[axis]) < c[axis].min(d[axis]) || c[axis].max(d[axis]) < a[axis].min(b[axis])
+    };
+    if is_apart(0) || is_apart(1) {
+        return false;
+    }
+    let side =
+        |a: [f64; 2], b: [f64; 2], p: [f64; 2]| (b[0] - a[0]) * (p[1] - a[1]) - (b[1] - a[1]) * (p[0] - a[0]);
+    let is_between =
+        |one: f64, other: f64| !(one > NOTHING && other > NOTHING || one < -NOTHING && other < -NOTHING);
+    is_between(side(a, b, c), side(a, b, d)) && is_between(side(c, d, a), side(c, d, b))
+}
+
 /// A ring with fewer corners: between the two that are farthest apart, as Douglas and Peucker have it.
 fn straightened(mut ring: Vec<[f64; 2]>, off: f64) -> Vec<[f64; 2]> {
     let first = ring[0];
@@ -165,6 +205,28 @@ fn straighten(line: &[[f64; 2]], off: f64, straight: &mut Vec<[f64; 2]>) {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    /// However coarsely a ring is straightened, it does not come to touch itself.
+    #[test]
+    fn what_is_straightened_stays_apart() {
+        let ring = |points: &[[f64; 2]]| touches_itself(points);
+        assert!(!ring(&[[0.0, 0.0], [2.0, 0.0], [2.0, 1.0], [0.0, 1.0]]));
+        assert!(ring(&[[0.0, 0.0], [4.0, 0.0], [4.0, 4.0], [2.0, 0.0], [0.0, 4.0]]), "a corner on a side");
+        assert!(ring(&[[0.0, 0.0], [4.0, 4.0], [4.0, 0.0], [0.0, 4.0]]), "two sides that cross");
+        let spiral = vec![
+            [0.0, 0.0],
+            [9.0, 0.0],
+            [9.0, 4.0],
+            [5.0, 4.0],
+            [5.0, 1.0],
+            [4.0, 1.0],
+            [4.0, 4.0],
+            [0.0, 4.0],
+        ];
+        let straight = straightened_apart(spiral.clone(), 3.5);
+        assert!(!touches_itself(&straight) && straight.len() >= 4, "{straight:?}");
+        assert!(!touches_itself(&straightened_apart(spiral, 0.0)));
+    }
 
     /// Cells around a hole that the last two close off only by touching in a corner.
     #[test]
