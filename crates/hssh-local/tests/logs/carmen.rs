@@ -149,6 +149,17 @@ fn a_beam_without_a_range_is_one_that_brought_nothing() {
 }
 
 #[test]
+fn a_line_ends_as_any_system_ends_it() {
+    let usual = read(LOG).unwrap();
+    for end in ["\r\n", "\r"] {
+        let log = read(&LOG.replace('\n', end)).unwrap();
+        assert_eq!(log, usual, "{end:?}");
+        let bad = read(&format!("{LOG}FLASER 3 x\n").replace('\n', end)).unwrap();
+        assert!(bad.warnings.iter().any(|warning| warning.to_string().starts_with("line 7: ")), "{end:?}");
+    }
+}
+
+#[test]
 fn messages_in_small_letters_and_behind_a_mark_are_messages() {
     assert_eq!(read(&LOG.to_lowercase()).unwrap().scans, read(LOG).unwrap().scans);
     assert_eq!(read(&LOG.replace('\n', "\r\n")).unwrap().scans, read(LOG).unwrap().scans);
