@@ -72,7 +72,17 @@ impl OtherLaser {
         raw.tell_odd_beams(warnings);
         let (view, turn, _) = raw.view(&LaserMount::default());
         let robot: Vec<Pose> = raw.scans.iter().map(|scan| raw.trajectory[scan.moment].pose).collect();
-        let mount = raw.move_to_laser(&LaserMount::default(), warnings);
+        let mount = raw.move_to_laser(&LaserMount::default(), &mut Vec::new());
+        if let Some(first) = raw.scans.first() {
+            let text = format!(
+                "merged with {} scans of {}, of a laser {:.2} m ahead of the robot's axis and {:.2} m to its left",
+                raw.scans.len(),
+                first.kind.name(),
+                mount.x,
+                mount.y
+            );
+            warnings.push(LogWarning::Remark { text, is_loss: false });
+        }
         let max_range = raw.limit(|_| (view, turn), warnings)?;
         let log = raw.into_log(std::iter::repeat((view, turn)), max_range, Vec::new());
         let sweep = |(logged, robot): (LoggedScan, Pose)| Sweep {

@@ -336,6 +336,8 @@ fn two_lasers_see_the_walls_all_around() {
         );
         let log = LaserLog::read_lasers(text.as_bytes(), &LaserMount::default(), &chosen).unwrap();
         assert_eq!((log.scans.len(), alone.scans.len()), (60, 60));
+        let merged = format!("merged with 60 scans of {}, of a laser -0.25 m ahead", chosen[1].name());
+        assert!(log.warnings.iter().any(|warning| warning.to_string().starts_with(&merged)), "{merged}");
         for (step, logged) in log.scans.iter().enumerate() {
             let laser = in_the_room(step as f64 * 0.1).compose(Pose::new(0.3, 0.1, 0.0));
             assert!(laser.between(logged.odometry).translation().norm() < 1e-6);
