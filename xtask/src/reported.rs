@@ -128,7 +128,7 @@ const HELD: &[Held] = &[
         "posterior::what_comes_after_the_proof_withdraws_nothing_and_has_an_end",
     ),
     held("r05", &[], &[REFUSED, ("error: ", 1)], "faults::what_is_wrong_with_an_input_is_said_first"),
-    held("r07", &[], &[("posterior with proof", ANY)], "limits::no_time_for_the_set_up"),
+    held("r07", &[], &[(" … posterior with proof", ANY)], "limits::no_time_for_the_set_up"),
     held(
         "r08",
         &[
