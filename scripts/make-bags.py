@@ -96,6 +96,22 @@ class Maker:
         )
 
 
+def two_robots(maker, odom):
+    """Two robots that call their frames alike, each in its own namespace: the second drives elsewhere, faster, and tells it twice as often."""
+    told = messages(maker, odom=odom)
+    for number in range(12):
+        time, pose = BEGIN + number * SECOND // 4, (1.5 - 0.4 * number, 0.2 * number, -0.3 * number)
+        if odom == "topic":
+            told.append(("/odom", TYPES["/odom"], time, maker.odometry(time, pose)))
+        else:
+            told.append(("/tf", TYPES["/tf"], time, maker.transform(time, "odom", "base_link", *pose[:2], 0.0, 0.0, pose[2])))
+        told.append(("/scan", "sensor_msgs/msg/LaserScan", time, maker.scan(time, "laser", (0.0, 0.0, 0.0), -1.0, 0.1, 21)))
+    told.append(("/tf_static", TYPES["/tf_static"], BEGIN, maker.transform(BEGIN, "base_link", "laser", -0.5, 0.0, 0.2, 0.0, 1.0)))
+    first = len(told) - 25
+    named = [(f"/robot{1 if index < first else 2}{topic}", kind, time, message) for index, (topic, kind, time, message) in enumerate(told)]
+    return sorted(named, key=lambda message: message[2])
+
+
 TYPES = {"/tf_static": "tf2_msgs/msg/TFMessage", "/tf": "tf2_msgs/msg/TFMessage", "/odom": "nav_msgs/msg/Odometry"}
 
 
@@ -140,12 +156,12 @@ def write(writer, maker, told):
             writer.write(connections[topic], time, serialize(message, kind))
 
 
-def ros2(name, plugin=StoragePlugin.MCAP, mode=None, version=9, **options):
+def ros2(name, plugin=StoragePlugin.MCAP, mode=None, version=9, robots=False, **options):
     maker = Maker(False)
     writer = Writer2(OUT / name, version=version, storage_plugin=plugin)
     if mode:
         writer.set_compression(mode, CompressionFormat.ZSTD)
-    write(writer, maker, messages(maker, **options))
+    write(writer, maker, two_robots(maker, **options) if robots else messages(maker, **options))
 
 
 def ros1(name, compression=None, **options):
@@ -166,6 +182,8 @@ ros2("tf-only", odom="tf")
 ros2("scans-only", odom=None, mount=False)
 ros2("no-mount", mount=False)
 ros2("two-lasers", rear=True)
+ros2("two-robots", robots=True, odom="topic")
+ros2("two-robots-tf", robots=True, odom="tf")
 ros2("two-clocks", shift=5000 * SECOND)
 ros2("backwards", back=True)
 ros2("clouds", scans=False, cloud=True)

@@ -5,6 +5,7 @@ import shutil
 import tempfile
 
 from selenium import webdriver
+from selenium.webdriver.common.action_chains import ActionChains
 from selenium.webdriver.common.by import By
 from selenium.webdriver.common.keys import Keys
 
@@ -62,6 +63,12 @@ class Browser:
         node = self.one(selector)
         self.js("arguments[0].scrollIntoView({ block: 'center' })", node)
         node.click()
+
+    def drag(self, selector, right, down):
+        """Moves the mouse, its button held, from the middle of an element."""
+        node = self.one(selector)
+        self.js("arguments[0].scrollIntoView({ block: 'center' })", node)
+        ActionChains(self.driver).click_and_hold(node).move_by_offset(right, down).release().perform()
 
     def key(self, *keys):
         self.driver.switch_to.active_element.send_keys(*keys)

@@ -1,4 +1,4 @@
-"""Checks the page of `hssh map --html` in headless Chromium: what is on it, what clicks and keys do, what it asks for.
+"""Checks the pages of `hssh map --html` and `hssh stars --html` in headless Chromium: what is on them, what clicks and keys do, what they ask for.
 
     pip install selenium
     python3 scripts/page/check.py target/release/hssh [FOLDER for screenshots]
@@ -48,6 +48,14 @@ def make(hssh, folder, source, name, *flags):
         source = file
     page = folder / f"{len(list(folder.iterdir()))}.html"
     done = subprocess.run([hssh, "map", source, "--json", "--html", page, *flags], capture_output=True, text=True, timeout=300)
+    assert page.exists(), f"{source}: no page\n{done.stderr}"
+    return page, json.loads(done.stdout)
+
+
+def make_plan(hssh, folder, source, *flags):
+    """The page of a grid map, and what it is to show."""
+    page = folder / f"{len(list(folder.iterdir()))}.html"
+    done = subprocess.run([hssh, "stars", source, "--json", "--html", page, *flags], capture_output=True, text=True, timeout=300)
     assert page.exists(), f"{source}: no page\n{done.stderr}"
     return page, json.loads(done.stdout)
 
@@ -291,7 +299,7 @@ def test_sizes(browser, page, what):
     browser.media(media="print")
     check(browser.js("return getComputedStyle(document.querySelector('.zoom')).display") == "none", f"{what}: no buttons on paper")
     browser.js("window.dispatchEvent(new Event('beforeprint'))")
-    check(len(browser.all("#visits tbody tr")) > 0, f"{what}: lists are printed")
+    check(len(browser.all("details tbody tr")) > 0, f"{what}: lists are printed")
     browser.media()
     quiet(browser, what)
 
@@ -352,6 +360,100 @@ def test_large(browser, page, answer, what):
     same(browser.text("#detail h3"), "Place 7", f"{what}: a click")
     click = time.monotonic() - started
     check(click < 0.5, f"{what}: a click takes {click:.2f} s")
+    quiet(browser, what)
+
+
+KINDS = {"region": "regions", "passage": "passages", "place": "places", "connection": "connections"}
+
+
+def press(browser, selector):
+    """A click on what may lie under something else."""
+    browser.js("document.querySelector(arguments[0]).dispatchEvent(new MouseEvent('click', { bubbles: true }))", selector)
+
+
+def test_plan(browser, page, account, what):
+    """Everything of a grid map is drawn, listed and told when it is chosen, in the words of the account."""
+    fresh(browser, page)
+    same(browser.one("h1").text, account["name"], f"{what}: the name")
+    same("DOUBTFUL" in browser.text("#headline"), "doubt" in account, f"{what}: DOUBTFUL")
+    doors = sum(passage["kind"] == "door" for passage in account["passages"])
+    check(f"{doors} of them with a door" in browser.text("#headline"), f"{what}: {doors} doors")
+    same(len(browser.all("#map-picture image")), 1, f"{what}: the grid")
+    for kind, of in KINDS.items():
+        same(len(browser.all(f"#map-picture [data-{kind}]")), len(account[of]), f"{what}: {of} drawn")
+        browser.click(f"#{of} summary")
+        check(soon(lambda: len(browser.all(f"#{of} tbody tr")) == len(account[of])), f"{what}: {of} listed")
+    for number, region in enumerate(account["regions"]):
+        press(browser, f"[data-region='{number}']")
+        told = browser.text("#detail")
+        check(f"{region['area']:.1f} m²" in told, f"{what}: the area of region {number}: {told}")
+        same(len(browser.all("#detail li")), len(region["passages"]), f"{what}: where region {number} leads")
+        same(browser.js("return document.querySelectorAll('#map-picture .chosen').length"), 1, f"{what}: it is marked")
+    for number, passage in enumerate(account["passages"]):
+        press(browser, f"[data-passage='{number}']")
+        told = browser.text("#detail")
+        likely = int(100 * passage["door_probability"] + 0.5)
+        check(f"{likely} %" in told, f"{what}: how probable a door is passage {number}: {told}")
+        same(browser.text("#detail h3").lower(), f"{passage['kind']} {number}", f"{what}: its name")
+    for number, place in enumerate(account["places"]):
+        press(browser, f"[data-place='{number}']")
+        same(len(browser.all("#detail .star")), 1 if place["ends"] else 0, f"{what}: the star of place {number}")
+        same(len(browser.all("#detail li")), len(place["ends"]), f"{what}: its ends")
+        leads = browser.js("return [...document.querySelectorAll('#detail li button')].map(at => at.textContent).filter(name => name.startsWith('connection')).length")
+        same(leads, sum(end["place"] == number for connection in account["connections"] for end in connection["ends"]), f"{what}: where place {number} leads")
+    for number, connection in enumerate(account["connections"]):
+        press(browser, f"[data-connection='{number}']")
+        check(browser.text("#detail").startswith(f"Connection {number}"), f"{what}: connection {number} is told")
+        same(len(browser.all("#detail p button")), 2 + len(connection.get("passages", [])), f"{what}: what it joins and leads through")
+    browser.click("#clear")
+    check("Choose a room" in browser.text("#detail"), f"{what}: nothing is chosen any more")
+    for layer, gone in (("grid", "image"), ("regions", ".area"), ("ways", ".walk")):
+        browser.click(f"#layer-{layer}")
+        same(len(browser.all(f"#map-picture {gone}")), 0, f"{what}: {layer} switched off")
+        browser.click(f"#layer-{layer}")
+    quiet(browser, what)
+
+
+def test_plan_mouse(browser, page, what):
+    """A room is chosen by a click of a real mouse, and not by the end of a movement that dragged the picture."""
+    fresh(browser, page)
+    browser.click(".place circle:nth-of-type(2)")
+    same(browser.text("#detail h3"), "Place 0", f"{what}: a click on a place")
+    browser.click("#clear")
+    browser.drag("#map-picture", 60, 40)
+    check("Choose a room" in browser.text("#detail"), f"{what}: dragging chooses nothing")
+    quiet(browser, what)
+
+
+def test_plan_keys(browser, page, what):
+    fresh(browser, page)
+    browser.js("document.querySelector('#map-picture .place[tabindex=\"0\"]').focus()")
+    browser.key(Keys.ENTER)
+    same(browser.text("#detail h3"), "Place 0", f"{what}: Enter chooses a place")
+    moved = set()
+    for arrow in (Keys.ARROW_LEFT, Keys.ARROW_RIGHT, Keys.ARROW_UP, Keys.ARROW_DOWN):
+        browser.key(arrow)
+        moved.add(browser.text("#detail h3"))
+        same(browser.js("return document.activeElement.dataset.place"), browser.text("#detail h3").split()[-1], f"{what}: the focus goes along")
+    check(len(moved) > 1, f"{what}: arrows go to other places")
+    wide = browser.js("return document.getElementById('map-picture').viewBox.baseVal.width")
+    browser.key("+")
+    check(browser.js("return document.getElementById('map-picture').viewBox.baseVal.width") < wide, f"{what}: + zooms in")
+    browser.key("0")
+    browser.key(Keys.ESCAPE)
+    check("Choose a room" in browser.text("#detail"), f"{what}: Escape chooses nothing")
+    browser.js("document.body.focus()")
+    reached = set()
+    for _ in range(24):
+        browser.key(Keys.TAB)
+        reached.add(browser.js("const at = document.activeElement; return at.id || at.getAttribute('data-place') && 'place' || at.parentElement?.id || at.className || at.tagName"))
+    for stop in ("theme", "place", "regions", "layer-grid"):
+        check(stop in reached, f"{what}: Tab comes to {stop} (it came to {sorted(reached)})")
+    unnamed = browser.js(
+        "return [...document.querySelectorAll('button, select, input, [role=button]')]"
+        ".filter(at => !(at.textContent.trim() || at.getAttribute('aria-label') || at.labels?.length)).map(at => at.outerHTML)"
+    )
+    same(unnamed, [], f"{what}: everything to act on has a name")
     quiet(browser, what)
 
 
@@ -456,14 +558,30 @@ def run(hssh, folder, shots):
         test_no_map(browser, none, none_says, "no map")
         one, _ = make(hssh, folder, worlds.ONE_PLACE, "one.ron")
         test_one_place(browser, one, "one place")
+        print("floor.yaml: a grid map")
+        names = folder / "names.csv"
+        names.write_text("x,y,name\n6,8,</script><b>&lab\n")
+        plan, plan_says = make_plan(hssh, folder, fixture("grids/floor.yaml"), "--names", names)
+        test_plan(browser, plan, plan_says, "floor.yaml")
+        test_plan_mouse(browser, plan, "floor.yaml")
+        test_plan_keys(browser, plan, "floor.yaml")
+        test_colors(browser, plan, "floor.yaml")
+        test_sizes(browser, plan, "floor.yaml")
+        detailed, detailed_says = make_plan(hssh, folder, fixture("grids/floor.yaml"), "--detail")
+        test_plan(browser, detailed, detailed_says, "floor.yaml --detail")
         print("500 places")
         large, large_says = make(hssh, folder, worlds.streets(20, 25), "large.ron", "--search", "best-first")
         test_large(browser, large, large_says, "streets")
         agrees(browser, large_says, "streets")
         print("news while it is looked at")
         test_live(browser, aces, several, "live")
-        pages = {"aces": aces, "several": several, "many": many, "misread": misread, "nasty": nasty, "none": none, "one": one, "large": large}
+        pages = {"aces": aces, "several": several, "many": many, "misread": misread, "nasty": nasty, "none": none, "one": one, "large": large, "plan": plan}
         if data := os.environ.get("HSSH_DATA"):
+            for grid, *flags in (("aces.yaml",), ("gdc3/3.yaml",), ("rooms/office_a.png", "--resolution", "0.05")):
+                page, says = make_plan(hssh, folder, Path(data) / "gridmap" / grid, *flags)
+                test_plan(browser, page, says, grid)
+                print(f"{grid}: {len(says['regions'])} regions, {page.stat().st_size / 1e6:.1f} MB, opens in {fresh(browser, page):.2f} s")
+                pages[f"plan-{Path(grid).stem}"] = page
             for log in ("aces", "intel"):
                 print(f"{log}.log.gz: a real log")
                 page, says = make(hssh, folder, Path(data) / "logs" / f"{log}.log.gz", "")

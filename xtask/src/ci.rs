@@ -45,7 +45,7 @@ pub(crate) fn run() -> Result<(), Box<dyn Error>> {
 
 /// Runs every example of the crates that others depend on, as the tests have built it; each checks what it finds.
 fn examples() -> Result<(), Box<dyn Error>> {
-    const CRATES: [&str; 7] = [
+    const CRATES: [&str; 8] = [
         "hssh-topology",
         "hssh-causal",
         "hssh-metrics",
@@ -53,6 +53,7 @@ fn examples() -> Result<(), Box<dyn Error>> {
         "hssh-io",
         "hssh-search",
         "hssh-verify",
+        "hssh",
     ];
     let shell = Shell::new()?;
     for name in CRATES {

@@ -7,6 +7,7 @@ mod faults;
 mod layers;
 mod page;
 mod python;
+mod reported;
 mod root;
 mod tidy;
 
@@ -17,7 +18,7 @@ use std::process::ExitCode;
 
 const HELP: &str = "Checks:
     tidy    Checks what lints cannot: module sentences, file lengths, words, layers.
-    faults  Runs the program over faulty inputs and prints what it says of each.
+    faults  Runs the program over faulty inputs and prints what it says of each; with a folder of reported faults, over those.
     page    Clicks through the pages of `hssh map --html` in headless Chromium; with a folder, screenshots go there.
     python  Installs the Python package and runs its tests.
     ci      Everything that has to pass before a change is taken.
@@ -43,9 +44,10 @@ fn run(arguments: &[OsString]) -> Result<ExitCode, Box<dyn Error>> {
         ["ci"] => ci::run()?,
         ["python"] => ci::python()?,
         ["faults"] => faults::run()?,
+        ["faults", folder] => reported::run(folder)?,
         ["page"] => page::run(None)?,
         ["page", folder] => page::run(Some(folder))?,
-        ["tidy" | "ci" | "faults" | "python", unexpected, ..] | ["page", _, unexpected, ..] => {
+        ["tidy" | "ci" | "python", unexpected, ..] | ["page" | "faults", _, unexpected, ..] => {
             return Err(format!("unexpected argument `{unexpected}`").into());
         }
         [] | ["help" | "-h" | "--help"] => {

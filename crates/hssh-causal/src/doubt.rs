@@ -9,6 +9,8 @@ use crate::{Exploration, Odometry, Travel};
 const VAGUE_HEADING: f64 = 0.5;
 /// A travel may always be known no better than this many metres.
 const SHORT: f64 = 1.0;
+/// Places are hardly farther from one another than this many metres.
+const FAR: f64 = 1_000.0;
 /// The measured turn may differ from a multiple of a quarter turn by so much, read as degrees, to look like one.
 const RIGHT_ANGLE: f64 = 12.0;
 /// A turn agrees with the bearing of the end that the robot came in by if it is no more radians off…
@@ -39,6 +41,8 @@ pub enum Question {
     AgainstBearing(f64, f64),
     /// A heading that is known so badly that its variance may be in degrees: its standard deviation as written.
     Heading(f64),
+    /// Travels that are as long as no corridor is: the length of the middle one of all.
+    Far(f64),
     /// A position that is known no better than within more than the length of the travel: deviation and length.
     Position(f64, f64),
 }
@@ -57,7 +61,22 @@ impl Exploration {
             let question = question(travel.odometry.as_ref()?);
             Some(Doubt { travel: number, question: question.or(against.filter(|_| are_degrees))? })
         });
-        asked.collect()
+        let mut asked: Vec<Doubt> = asked.collect();
+        if let Some(doubt) = self.far().filter(|far| asked.iter().all(|doubt| doubt.travel != far.travel)) {
+            asked.insert(asked.partition_point(|before| before.travel < doubt.travel), doubt);
+        }
+        asked
+    }
+
+    /// The first travel that goes far, if most do.
+    fn far(&self) -> Option<Doubt> {
+        let length = |travel: &Travel| travel.odometry.as_ref().map(|odometry| odometry.x.hypot(odometry.y));
+        let mut lengths: Vec<f64> = self.travels().iter().filter_map(length).collect();
+        lengths.sort_by(f64::total_cmp);
+        let middle = lengths.get(lengths.len() / 2).copied().filter(|&middle| middle > FAR)?;
+        let travel =
+            self.travels().iter().position(|travel| length(travel).is_some_and(|metres| metres > FAR))?;
+        Some(Doubt { travel, question: Question::Far(middle) })
     }
 
     /// How far the turn of a travel is off what the bearing of the end says by which it arrives, as radians and as degrees, and what that
@@ -121,6 +140,10 @@ impl fmt::Display for Doubt {
                 "the heading is known no better than by {deviation:.1} rad: is its variance in square degrees? hssh takes \
                  square radians"
             ),
+            Question::Far(middle) => write!(
+                f,
+                "half of the travels are longer than {middle:.0} m: are x and y millimetres or so? hssh takes metres"
+            ),
             Question::Position(deviation, length) => write!(
                 f,
                 "the position is known no better than by {deviation:.1} m on a travel of {length:.1} m: is its variance in \
@@ -133,6 +156,21 @@ impl fmt::Display for Doubt {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn kilometres_are_asked_about_if_most_travels_have_them() {
+        let asked = |lengths: [f64; 3]| {
+            let travels: String = lengths
+                .iter()
+                .map(|x| format!("(exit: \"0+\", entry: \"0-\", star: \"a\", odometry: (x: {x}, y: 0, theta: 0, covariance: [1, 1, 0.01])), "))
+                .collect();
+            let text = format!("(stars: {{ \"a\": [\"0+\", \"0-\"] }}, start: \"a\", travels: [{travels}])");
+            Exploration::from_ron(&text).unwrap().doubts().iter().map(Doubt::to_string).collect::<Vec<_>>()
+        };
+        let far = "travel 2: half of the travels are longer than 8000 m: are x and y millimetres or so? hssh takes metres";
+        assert_eq!(asked([8.0, 8000.0, 9000.0]), [far]);
+        assert_eq!(asked([8.0, 9.0, 9000.0]), [""; 0]);
+    }
 
     fn asked(theta: f64, variances: [f64; 3]) -> Option<Question> {
         let mut covariance = [[0.0; 3]; 3];

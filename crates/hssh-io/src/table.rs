@@ -15,13 +15,13 @@
 use std::borrow::Cow;
 use std::io::{self, BufRead};
 
-use hssh_local::{LaserLog, LogError, LogWarning, RecordedScan, Recording, Scan, TimedPose};
+use hssh_local::{LaserLog, LineEnds, LogError, LogWarning, RecordedScan, Recording, Scan, TimedPose};
 use hssh_metrics::Pose;
 
 use crate::laser::KnownLaser;
 
 /// No line is longer, in bytes.
-const LONGEST_LINE: u64 = 1 << 22;
+const LONGEST_LINE: usize = 1 << 22;
 /// The columns before the ranges.
 const COLUMNS: [&str; 4] = ["time", "x", "y", "theta"];
 
@@ -113,11 +113,13 @@ pub fn read_table(mut source: impl BufRead, laser: &KnownLaser) -> Result<LaserL
     let mut table = Table::new(laser);
     let mut line = 0;
     let mut bytes = Vec::new();
+    let mut ends = LineEnds::default();
     loop {
         bytes.clear();
         line += 1;
-        let read = io::Read::take(&mut source, LONGEST_LINE).read_until(b'\n', &mut bytes);
-        if read.map_err(|error| TableError::Read { line, error })? == 0 {
+        let read = ends.read_line(&mut source, LONGEST_LINE, &mut bytes);
+        read.map_err(|error| TableError::Read { line, error })?;
+        if bytes.is_empty() {
             break;
         }
         table.add(line, String::from_utf8_lossy(&bytes).trim())?;
@@ -258,6 +260,17 @@ mod tests {
         assert_eq!(log.scans[0].scan.ranges, [1.5, f64::INFINITY, 2.0]);
         assert_eq!((0..3).map(|beam| log.scans[0].scan.bearing(beam)).collect::<Vec<_>>(), [-0.5, 0.0, 0.5]);
         assert_eq!((log.scans[1].odometry.x, log.scans[1].time), (2.0, Some(0.2)));
+    }
+
+    /// As some spreadsheets write them.
+    #[test]
+    fn a_line_ends_as_any_system_ends_it() {
+        let text = "time,x,y,theta,ranges\n0,0,0,0,1.5,inf,2\n1,1,0,0,1,1,1\n";
+        for end in ["\r\n", "\r"] {
+            assert_eq!(read(&text.replace('\n', end)).unwrap(), read(text).unwrap(), "{end:?}");
+        }
+        let error = read("0,0,0,0,1,2\r1,0,x,0,1,2").unwrap_err().to_string();
+        assert_eq!(error, "line 2, column 3: `x` is no finite number");
     }
 
     #[test]

@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 
 use hssh_io::{GrowingBag, RecordingError, RecordingOptions, bag_account, follow_bag, read_bag};
 use hssh_local::LaserLog;
+use hssh_metrics::Pose;
 
 fn bag(name: &str) -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../../fixtures/bags").join(name)
@@ -68,6 +69,29 @@ fn beams_end_on_walls_in_bags_of_every_kind() {
     for name in ["sqlite", "sqlite-file", "sqlite-message", "ros1.bag", "ros1-bz2.bag", "ros1-lz4.bag"] {
         assert_eq!(read(name), read("usual"), "{name}");
     }
+}
+
+/// They call their frames alike, and are told apart by the names of topics.
+#[test]
+fn of_two_robots_each_has_its_own_odometry_and_frames() {
+    for (name, odometry) in [("two-robots", "odometry from /robot"), ("two-robots-tf", "odometry from /tf")] {
+        let read = |scan: Option<&str>| {
+            let options = RecordingOptions { scan: scan.map(str::to_owned), ..RecordingOptions::default() };
+            read_bag(&bag(name), &options).unwrap_or_else(|error| panic!("{name}: {error}"))
+        };
+        let first = read(None);
+        assert_eq!((first.log.scans.len(), warnings(&first.log).as_str()), (6, ""), "{name}");
+        assert!(off_walls(&first.log) < 1e-3, "{name}: {}", off_walls(&first.log));
+        assert!(first.used[1].starts_with(odometry), "{:?}", first.used);
+        let second = read(Some("/robot2/scan"));
+        // It ended at (−2.9, 2.2), turned by −3.3, and its laser sits half a metre behind the axis.
+        let laser = Pose::new(-2.9, 2.2, -3.3).compose(Pose::new(-0.5, 0.0, 0.0));
+        let off = laser.between(second.log.scans.last().unwrap().odometry);
+        assert!(off.translation().norm() < 1e-6 && off.theta.abs() < 1e-6, "{name}: {off:?}");
+    }
+    let used = read_bag(&bag("two-robots"), &RecordingOptions::default()).unwrap().used;
+    assert!(used[0].ends_with("; not /robot2/scan, which --scan chooses"), "{used:?}");
+    assert!(used[1].starts_with("odometry from /robot1/odom"), "{used:?}");
 }
 
 #[test]

@@ -28,6 +28,7 @@ mod distance;
 mod geodesic;
 mod global_map;
 mod grid;
+mod lines;
 mod local_map;
 mod map_server;
 mod matching;
@@ -49,6 +50,7 @@ pub use closing::{Alike, ClosedTrack, ClosingError, ClosingOptions, Closure, clo
 pub use distance::DistanceField;
 pub use global_map::{Stay, building_map, global_map, global_poses, mean_wall_distance, stays, visit_frames};
 pub use grid::{Cell, CellLine, GridError, Lattice, LatticeError, Occupancy, OccupancyGrid};
+pub use lines::LineEnds;
 pub use local_map::{LocalMap, LocalMapOptions};
 pub use map_server::{
     MapError, encode_png, read_floor_plan, read_map, read_map_with_remarks, write_map, write_png,
@@ -72,7 +74,7 @@ pub use roadmap::{
     Connection, RegionPlace, RoadNode, RoadNodeKind, RoadNodeNumber, Roadmap, RoadmapOptions, Way,
 };
 pub use route::{RouteOptions, driven_line};
-pub use scan::Scan;
+pub use scan::{Scan, scan_around};
 pub use skeleton::{
     AxisPoint, EdgeEnd, FreeSpace, Skeleton, SkeletonEdge, SkeletonEdgeId, SkeletonNode, SkeletonNodeId,
     SkeletonOptions, Tip, UnknownSpace,

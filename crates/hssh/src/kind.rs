@@ -132,7 +132,10 @@ fn by_signature(beginning: &[u8]) -> Option<FileKind> {
 
 /// What the first line says that is no comment.
 fn of_text(text: &str) -> FileKind {
-    let is_record = |line: &&str| !line.is_empty() && !line.starts_with('#');
+    // Some programs begin comments by a percent sign, as YAML does its directives.
+    let is_comment =
+        |line: &str| line.starts_with('#') || (line.starts_with('%') && !line.starts_with("%YAML"));
+    let is_record = |line: &&str| !line.is_empty() && !is_comment(line);
     let mut records = text.split(['\n', '\r']).map(str::trim).filter(is_record);
     let Some(first) = records.next() else { return FileKind::Text };
     if hssh_io::is_table(first) {
@@ -169,7 +172,7 @@ fn of_text(text: &str) -> FileKind {
     let is_key = |line: &str| {
         line.split_once(':').is_some_and(|(key, _)| ["image", "resolution", "origin"].contains(&key.trim()))
     };
-    if is_key(first) || first == "---" || first.starts_with('%') || records.take(8).any(is_key) {
+    if is_key(first) || first == "---" || first.starts_with("%YAML") || records.take(8).any(is_key) {
         return FileKind::MapDescription;
     }
     FileKind::Text

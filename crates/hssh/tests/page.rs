@@ -5,10 +5,12 @@
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
+use hssh::account::PlacesAccount;
 use hssh::causal::Exploration;
-use hssh::page::PageData;
+use hssh::page::{PageData, PlanData};
 use hssh::pipeline::{Input, Mapped, MappingOptions, Monitor, map};
 use hssh::world::{grid, snake};
+use hssh_local::{RegionMap, RegionOptions, Roadmap, RoadmapOptions, read_map};
 use proptest::prelude::*;
 
 /// What the data stand in.
@@ -55,9 +57,22 @@ fn branches(data: &PageData) -> Vec<String> {
     branches
 }
 
+/// The page of the small floor.
+fn plan() -> PlanData {
+    let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../fixtures/grids/floor.yaml");
+    let grid = read_map(&file).unwrap();
+    let map = RegionMap::new(&grid, &RegionOptions::default()).unwrap();
+    let roadmap = Roadmap::new(&grid, &map, &RoadmapOptions::default());
+    PlanData::new(&PlacesAccount::of_regions("floor.yaml", &map, &roadmap, 0.25), &grid)
+}
+
 #[test]
 fn a_page_needs_nothing_but_itself() {
-    let page = page_data(&input("aces.ron"), &planar()).to_html();
+    needs_nothing(&page_data(&input("aces.ron"), &planar()).to_html());
+    needs_nothing(&plan().to_html());
+}
+
+fn needs_nothing(page: &str) {
     let page = page.replace("\"http://www.w3.org/2000/svg\"", ""); // the name of a language, which nobody fetches
     for outside in [
         "http:",
@@ -81,7 +96,7 @@ fn a_page_needs_nothing_but_itself() {
 #[test]
 fn the_script_makes_no_markup_of_text() {
     let script = std::fs::read_dir(assets().join("js")).unwrap().map(|file| file.unwrap().path());
-    for file in script.chain([assets().join("page.html")]) {
+    for file in script.chain(["page.html", "plan.html"].map(|frame| assets().join(frame))) {
         let text = std::fs::read_to_string(&file).unwrap();
         for dangerous in [
             "innerHTML",
@@ -97,10 +112,10 @@ fn the_script_makes_no_markup_of_text() {
     }
 }
 
-/// Every file of the script is in the page.
+/// Every file of the scripts is in one of the pages.
 #[test]
 fn no_part_of_the_script_is_forgotten() {
-    let page = page_data(&input("figure-2-4.ron"), &planar()).to_html();
+    let page = page_data(&input("figure-2-4.ron"), &planar()).to_html() + &plan().to_html();
     for file in std::fs::read_dir(assets().join("js")).unwrap() {
         let file = file.unwrap().path();
         assert!(page.contains(&std::fs::read_to_string(&file).unwrap()), "{}", file.display());
@@ -114,6 +129,20 @@ fn what_a_page_shows_can_be_read_from_it() {
         let page = data.to_html();
         assert_eq!(serde_json::from_str::<PageData>(parts(&page)[1]).unwrap(), data, "{name}");
     }
+}
+
+#[test]
+fn what_a_plan_shows_can_be_read_from_it() {
+    let data = plan();
+    assert_eq!((data.account.regions.len(), data.account.passages.len()), (2, 1));
+    assert_eq!(serde_json::from_str::<PlanData>(parts(&data.to_html())[1]).unwrap(), data);
+    // No name of a region gets out of the data.
+    let mut nasty = data.clone();
+    nasty.account.regions[0].name = Some("</script><b>".to_owned());
+    let (page, usual) = (nasty.to_html(), data.to_html());
+    let ([before, shown, behind], [usual_before, _, usual_behind]) = (parts(&page), parts(&usual));
+    assert_eq!((before, behind), (usual_before, usual_behind));
+    assert!(!shown.contains(['<', '>', '&']));
 }
 
 /// Only a page that was served may ask for news, and only of the program that served it.

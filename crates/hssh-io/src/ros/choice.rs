@@ -3,7 +3,7 @@
 use hssh_metrics::Pose;
 
 use crate::ros::error::RecordingError;
-use crate::ros::gather::{Gathered, Laser, Moment, Wheels, planar};
+use crate::ros::gather::{Gathered, Laser, Moment, Wheels, namespace, planar};
 use crate::ros::sweep::Mount;
 
 /// Frames that robots call the one of their body.
@@ -119,7 +119,7 @@ fn lasers<'a>(
         return Ok((found.remove(0), found));
     }
     let is_level = |laser: &Laser| {
-        let above = gathered.frames.above(laser.frame());
+        let above = gathered.frames_of(laser).above(laser.frame());
         above.last().is_none_or(|(_, pose)| Mount::of(pose).is_level())
     };
     let widest = usable().max_by(|one, other| {
@@ -129,6 +129,12 @@ fn lasers<'a>(
         merit(one).cmp(&merit(other)).then(other.topic.cmp(&one.topic))
     });
     widest.map(|laser| (laser, Vec::new())).ok_or_else(|| RecordingError::no_laser(gathered))
+}
+
+/// Whether two topics have the same first name before their own.
+pub(crate) fn is_of_one_robot(one: &str, other: &str) -> bool {
+    let first = |topic| namespace(topic).split('/').next().unwrap_or_default();
+    first(one) == first(other)
 }
 
 fn is_topic(topic: &str, asked: &str) -> bool {
@@ -166,7 +172,7 @@ fn odometry<'a>(
         return found.ok_or_else(|| RecordingError::NoSuchOdometry { asked: asked.to_owned(), known });
     }
     // Best first: odometry of the laser's own body that moves, by a topic, by /tf; then what may be of another body.
-    let is_own = |child: &str| gathered.frames.between(child, laser.frame()).is_some();
+    let is_own = |child: &str| gathered.frames_of(laser).between(child, laser.frame()).is_some();
     let is_map = |frame: &str| MAPS.contains(&frame);
     let mut candidates: Vec<(u8, Odometry<'a>)> = Vec::new();
     for wheels in gathered.wheels.iter().filter(|wheels| !wheels.poses.is_empty()) {
@@ -187,20 +193,25 @@ fn odometry<'a>(
         };
         candidates.push((rank, moving));
     }
-    let best = candidates
-        .into_iter()
-        .min_by_key(|(rank, odometry)| (*rank, std::cmp::Reverse(odometry.poses().len())));
+    // Of several robots that one whose laser it is.
+    let is_elsewhere = |odometry: &Odometry<'_>| match odometry {
+        Odometry::Topic(wheels) => !is_of_one_robot(&wheels.topic, &laser.topic),
+        _ => false,
+    };
+    let best = candidates.into_iter().min_by_key(|(rank, odometry)| {
+        (*rank, is_elsewhere(odometry), std::cmp::Reverse(odometry.poses().len()))
+    });
     Ok(best.map_or(Odometry::None, |(_, odometry)| odometry))
 }
 
 /// Frames on the laser's body that move in another one.
 fn moving_frames<'a>(gathered: &'a Gathered, laser: &'a Laser, base: Option<&str>) -> Vec<Odometry<'a>> {
-    let body = gathered.frames.above(laser.frame());
+    let body = gathered.frames_of(laser).above(laser.frame());
     let is_of_body = |child: &str| {
         let asked = base.map(|base| base.trim_start_matches('/'));
         asked.map_or_else(|| body.iter().any(|(name, _)| *name == child), |base| base == child)
     };
-    let links = gathered.frames.links().filter(|(child, link)| link.moves() && is_of_body(child));
+    let links = gathered.frames_of(laser).links().filter(|(child, link)| link.moves() && is_of_body(child));
     links
         .map(|(child, link)| {
             let pose = |&(stamp, recorded, pose): &(i64, i64, nalgebra::Isometry3<f64>)| {
@@ -228,10 +239,10 @@ fn mount(
     doubts: &mut Vec<String>,
 ) -> Result<Mount, RecordingError> {
     let frame = laser.frame();
-    let above = gathered.frames.above(frame);
+    let above = gathered.frames_of(laser).above(frame);
     let is_base = |name: &str| BASES.iter().any(|base| name.rsplit('/').next() == Some(base));
     let told = match base {
-        Some(base) => gathered.frames.between(base, frame).or_else(|| {
+        Some(base) => gathered.frames_of(laser).between(base, frame).or_else(|| {
             // Another name for the body: base_footprint where the tree of the laser ends in base_link.
             let (name, pose) = above.last().filter(|(name, _)| is_base(name) && *name != frame)?;
             doubts.push(format!(

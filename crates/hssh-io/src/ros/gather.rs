@@ -1,5 +1,6 @@
 //! What a bag holds for a mapper: its lasers, its odometry, its frames, as they come.
 
+use std::collections::BTreeMap;
 use std::path::Path;
 
 use hssh_metrics::Pose;
@@ -72,9 +73,18 @@ pub(crate) struct Gathered {
     pub(crate) contents: BagContents,
     pub(crate) lasers: Vec<Laser>,
     pub(crate) wheels: Vec<Wheels>,
+    /// Those of all robots together.
     pub(crate) frames: Frames,
+    /// Where transforms come by topics such as `/robot1/tf`: those of each such namespace with those of none, and under no name those of none. Robots
+    /// that are told apart in this way call their frames alike.
+    robots: BTreeMap<String, Frames>,
     pub(crate) unreadable: Vec<Unreadable>,
-    met: std::collections::BTreeMap<String, u64>,
+    met: BTreeMap<String, u64>,
+}
+
+/// What stands before the last part of a topic's name: of `/robot1/scan`, `robot1`.
+pub(crate) fn namespace(topic: &str) -> &str {
+    topic.trim_start_matches('/').rsplit_once('/').map_or("", |(namespace, _)| namespace)
 }
 
 /// A frame on the floor.
@@ -118,7 +128,7 @@ impl Gathered {
             }),
             MessageType::Transforms => Transform::read_all(message.bytes, wire).map(|transforms| {
                 for transform in transforms {
-                    self.frames.add(transform, message.time);
+                    self.add_transform(namespace(topic), transform, message.time);
                 }
                 None
             }),
@@ -137,6 +147,30 @@ impl Gathered {
                 first: (number, reason),
             }),
         }
+    }
+
+    fn add_transform(&mut self, of: &str, transform: Transform, recorded: i64) {
+        if self.robots.is_empty() && !of.is_empty() {
+            self.robots.insert(String::new(), self.frames.clone());
+        }
+        if !of.is_empty() && !self.robots.contains_key(of) {
+            let common = self.robots[""].clone();
+            self.robots.insert(of.to_owned(), common);
+        }
+        for (name, frames) in &mut self.robots {
+            if of.is_empty() || name == of {
+                frames.add(transform.clone(), recorded);
+            }
+        }
+        self.frames.add(transform, recorded);
+    }
+
+    /// The frames of the robot that a laser is of, if it shares its namespace with topics of transforms; else all.
+    pub(crate) fn frames_of(&self, laser: &Laser) -> &Frames {
+        let of = namespace(&laser.topic);
+        let is_within = |name: &str| !name.is_empty() && (of == name || of.starts_with(&format!("{name}/")));
+        let own = self.robots.iter().filter(|(name, _)| is_within(name));
+        own.max_by_key(|(name, _)| name.len()).map_or(&self.frames, |(_, frames)| frames)
     }
 
     fn laser(&mut self, topic: &str) -> &mut Laser {

@@ -1,19 +1,12 @@
 //! Scans of several lasers of one robot as scans of one that looks all around from where the first of them sits.
 //!
-//! A hit of another laser is moved to where the robot was when the first one looked, and lies in the direction in which it is seen from there; of
-//! hits in one direction the nearest counts. Where no laser hit anything, nothing is known. What a laser hit that the first one
-//! could not have seen, behind a corner of the robot's own width, stays in its direction: the lasers of one robot are near one another.
+//! A hit of another laser is moved by the odometry to where the robot was when the first one looked.
 
-use std::f64::consts::TAU;
-
-use hssh_local::{RecordedScan, Scan, TimedPose};
+use hssh_local::{RecordedScan, Scan, TimedPose, scan_around};
 use hssh_metrics::Pose;
-use nalgebra::Vector2;
 
 /// A sweep that was taken longer before or after than this is not of the same moment: seconds.
 const TOGETHER: f64 = 0.25;
-/// A merged scan has no more beams.
-const MOST_BEAMS: f64 = 3_000.0;
 
 /// What another laser saw, from where it sits: metres ahead of the robot's axis and to its left.
 pub(crate) struct Other {
@@ -34,33 +27,15 @@ pub(crate) fn merged(
         .map(|first| {
             let near = others.iter().filter_map(|other| Some((other, nearest(&other.scans, first.time)?)));
             let near: Vec<(&Other, &RecordedScan)> = near.collect();
-            let lasers = near.iter().map(|(_, recorded)| &recorded.scan).chain([&first.scan]);
-            let finest = lasers.map(step).fold(f64::INFINITY, f64::min);
-            let beams = 2.0 * (TAU / finest / 2.0).clamp(1.0, MOST_BEAMS / 2.0).round();
-            let mut around = Scan { ranges: vec![f64::INFINITY; beams as usize], view: TAU, turn: 0.0 };
-            first.scan.hits(f64::INFINITY).for_each(|(_, hit)| add(&mut around, hit));
-            for (other, recorded) in near {
-                let moved = moved(odometry, first.time, recorded.time);
-                let [from, to] = [at, other.at].map(Vector2::from);
-                for (_, hit) in recorded.scan.hits(f64::INFINITY) {
-                    add(&mut around, moved.translation() + moved.rotation() * (hit + to) - from);
-                }
-            }
+            let seen = |(other, recorded): &(&Other, &'_ RecordedScan)| {
+                let [from, to] = [at, other.at].map(|[x, y]| Pose::new(x, y, 0.0));
+                from.between(moved(odometry, first.time, recorded.time).compose(to))
+            };
+            let others: Vec<(&Scan, Pose)> = near.iter().map(|pair| (&pair.1.scan, seen(pair))).collect();
+            let around = scan_around(&first.scan, &others);
             RecordedScan { scan: around, time: first.time }
         })
         .collect()
-}
-
-/// The angle between two beams.
-fn step(scan: &Scan) -> f64 {
-    scan.view / (scan.ranges.len() - scan.ranges.len() % 2).max(1) as f64
-}
-
-/// Adds a point that was hit.
-fn add(around: &mut Scan, hit: Vector2<f64>) {
-    let beams = around.ranges.len() as f64;
-    let beam = ((hit.y.atan2(hit.x) / TAU + 0.5) * beams).round() as usize % around.ranges.len();
-    around.ranges[beam] = around.ranges[beam].min(hit.norm());
 }
 
 /// The scan whose time is nearest, if it is of the same moment.

@@ -5,7 +5,7 @@ use std::path::Path;
 
 use hssh_local::{LaserLog, LogWarning, RecordedScan, Recording, TimedPose};
 
-use crate::ros::choice::{Choice, Odometry, RecordingOptions, choose};
+use crate::ros::choice::{Choice, Odometry, RecordingOptions, choose, is_of_one_robot};
 use crate::ros::clock::{self, Clock, ClockProblem, REACH, seconds};
 use crate::ros::error::RecordingError;
 use crate::ros::gather::{Gathered, Laser, Moment, gather};
@@ -58,9 +58,18 @@ pub(crate) fn used(gathered: &Gathered, choice: &Choice<'_>) -> Vec<String> {
         if others.is_empty() {
             String::new()
         } else {
-            let all = std::iter::once(laser.topic.as_str()).chain(others.iter().copied());
-            let all: Vec<&str> = all.collect();
-            format!("; not {}, which --scan chooses; --scan {} merges them", others.join(", "), all.join(","))
+            let is_other_robot = |topic: &&&str| {
+                !is_of_one_robot(topic, &laser.topic)
+                    && gathered.wheels.iter().any(|wheels| is_of_one_robot(&wheels.topic, topic))
+            };
+            let merged: Vec<&str> = others.iter().filter(|topic| !is_other_robot(topic)).copied().collect();
+            let all: Vec<&str> =
+                std::iter::once(laser.topic.as_str()).chain(merged.iter().copied()).collect();
+            let merges = match all[..] {
+                [_] => String::new(),
+                _ => format!("; --scan {} merges them", all.join(",")),
+            };
+            format!("; not {}, which --scan chooses{merges}", others.join(", "))
         }
     )];
     for (other, mount) in merged {

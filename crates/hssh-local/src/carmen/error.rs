@@ -405,6 +405,14 @@ pub enum LogError {
         /// How long a line may be.
         most: usize,
     },
+    /// A laser is asked for that the log does not have.
+    #[error("the log has no {asked} messages; it has {has}")]
+    NoSuchLaser {
+        /// The kind of messages.
+        asked: &'static str,
+        /// The kinds that it has.
+        has: String,
+    },
     /// Nothing in it.
     #[error("the log is empty")]
     Empty,

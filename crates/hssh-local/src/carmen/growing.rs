@@ -2,10 +2,13 @@
 
 use std::io::Read;
 
+use hssh_metrics::Pose;
+
 use super::error::{LogError, LogWarning};
 use super::log::LaserLog;
-use super::message::Message;
+use super::message::{LaserKind, Message};
 use super::mount::LaserMount;
+use super::others::OtherLaser;
 use super::position::LogPosition;
 use super::raw::RawLog;
 use super::reader::LogReader;
@@ -15,6 +18,8 @@ use super::reader::LogReader;
 pub struct GrowingLog {
     raw: RawLog,
     known: LaserMount,
+    /// Whose scans are used, those of the first with what the others see; none for those that are of most use.
+    chosen: Vec<LaserKind>,
     lines: u64,
     warnings: Vec<LogWarning>,
 }
@@ -23,7 +28,13 @@ impl GrowingLog {
     /// A log without messages yet, of whose laser something may be known that the log will not say, or will say wrongly.
     #[must_use]
     pub fn new(known: LaserMount) -> Self {
-        GrowingLog { raw: RawLog::default(), known, lines: 0, warnings: Vec::new() }
+        GrowingLog { raw: RawLog::default(), known, chosen: Vec::new(), lines: 0, warnings: Vec::new() }
+    }
+
+    /// The same of the scans in messages of these kinds: of several, merged to what one laser would see all around from where the first sits.
+    #[must_use]
+    pub fn of_lasers(self, chosen: &[LaserKind]) -> Self {
+        GrowingLog { chosen: chosen.to_vec(), ..self }
     }
 
     /// Adds what a reader read last, and what it passed over before; nothing but the latter at its end.
@@ -59,11 +70,11 @@ impl GrowingLog {
     }
 
     fn made(self, is_whole: bool) -> Result<LaserLog, LogError> {
-        let GrowingLog { mut raw, known, lines, mut warnings } = self;
+        let GrowingLog { mut raw, known, chosen, lines, mut warnings } = self;
         if raw.scans.is_empty() {
             return Err(raw.why_useless(lines, warnings));
         }
-        raw.keep_best_kind(&mut warnings);
+        let others = raw.choose(&chosen, &mut warnings)?;
         raw.keep_usual_scans(&mut warnings);
         raw.tell_odd_beams(&mut warnings);
         let (view, turn, is_told) = raw.view(&known);
@@ -79,7 +90,8 @@ impl GrowingLog {
             raw.check_order()?;
         }
         raw.drop_stray_lines(&mut warnings);
-        raw.move_to_laser(&known, &mut warnings);
+        let robot: Vec<Pose> = raw.scans.iter().map(|scan| raw.trajectory[scan.moment].pose).collect();
+        let mount = raw.move_to_laser(&known, &mut warnings);
         raw.bridge_jumps(&mut warnings);
         let max_range = raw.limit(|_| (view, turn), &mut warnings)?;
         let is_facing_unclear = is_whole && raw.check_facing(view, max_range, &mut warnings);
@@ -87,10 +99,16 @@ impl GrowingLog {
             raw.check_pace(|_| (view, turn), max_range, &mut warnings);
             raw.check_noise(|_| (view, turn), max_range, &mut warnings);
         }
+        let others = others
+            .into_iter()
+            .map(|other| OtherLaser::new(other, &mut warnings))
+            .collect::<Result<Vec<_>, _>>()?;
         warnings.sort_by_key(LogWarning::position);
         let geometry = std::iter::repeat((view, turn));
         let is_laser_given = known.pose.is_some();
-        Ok(LaserLog { is_facing_unclear, is_laser_given, ..raw.into_log(geometry, max_range, warnings) })
+        let log =
+            LaserLog { is_facing_unclear, is_laser_given, ..raw.into_log(geometry, max_range, warnings) };
+        Ok(if others.is_empty() { log } else { log.seen_around(&robot, mount, &others) })
     }
 }
 
@@ -109,8 +127,21 @@ impl LaserLog {
     /// # Errors
     /// As [`read`](Self::read).
     pub fn read_with(source: impl Read, known: &LaserMount) -> Result<Self, LogError> {
+        LaserLog::read_lasers(source, known, &[])
+    }
+
+    /// Reads the scans in messages of some kinds: of several, merged to what one laser would see all around from where the first sits. If none
+    /// is given, those that are of most use.
+    ///
+    /// # Errors
+    /// As [`read`](Self::read), and if the log has no messages of one of these kinds.
+    pub fn read_lasers(
+        source: impl Read,
+        known: &LaserMount,
+        chosen: &[LaserKind],
+    ) -> Result<Self, LogError> {
         let mut reader = LogReader::new(source)?;
-        let mut growing = GrowingLog::new(*known);
+        let mut growing = GrowingLog::new(*known).of_lasers(chosen);
         loop {
             let message = reader.next_message()?;
             let is_end = message.is_none();

@@ -28,6 +28,8 @@ pub enum Message {
 /// Which message a scan is told by, the least useful first: a log may tell each scan by several.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
 pub enum LaserKind {
+    /// `ROBOTLASER2`: a second laser, which looks back, and how.
+    RobotRear,
     /// `RLASER`: a laser that looks back.
     Rear,
     /// `RAWLASER1`: without a pose, which odometry before it tells.
@@ -36,6 +38,36 @@ pub enum LaserKind {
     Robot,
     /// `FLASER`.
     Front,
+}
+
+impl LaserKind {
+    /// All kinds, the most useful first.
+    pub const ALL: [LaserKind; 5] =
+        [LaserKind::Front, LaserKind::Robot, LaserKind::Raw, LaserKind::Rear, LaserKind::RobotRear];
+
+    /// The name of its messages.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            LaserKind::RobotRear => "ROBOTLASER2",
+            LaserKind::Rear => "RLASER",
+            LaserKind::Raw => "RAWLASER1",
+            LaserKind::Robot => "ROBOTLASER1",
+            LaserKind::Front => "FLASER",
+        }
+    }
+
+    /// The kind whose messages have a name, in capitals or not.
+    #[must_use]
+    pub fn named(name: &str) -> Option<Self> {
+        LaserKind::ALL.into_iter().find(|kind| kind.name().eq_ignore_ascii_case(name))
+    }
+
+    /// Whether its laser looks back.
+    #[must_use]
+    pub fn is_rear(self) -> bool {
+        matches!(self, LaserKind::Rear | LaserKind::RobotRear)
+    }
 }
 
 /// How a message says that its laser looks.
@@ -80,6 +112,7 @@ impl Message {
             Some("FLASER") => Ok(Message::Laser(laser(&words, LaserKind::Front)?)),
             Some("RLASER") => Ok(Message::Laser(laser(&words, LaserKind::Rear)?)),
             Some("ROBOTLASER1") => Ok(Message::Laser(told_laser(&words, LaserKind::Robot)?)),
+            Some("ROBOTLASER2") => Ok(Message::Laser(told_laser(&words, LaserKind::RobotRear)?)),
             Some("RAWLASER1") => Ok(Message::Laser(told_laser(&words, LaserKind::Raw)?)),
             Some("ODOM") => Ok(Message::Odometry(pose(&words, 1)?)),
             Some("PARAM") if words.len() >= 3 => {
@@ -133,7 +166,8 @@ fn told_laser(words: &[&str], kind: LaserKind) -> Result<LaserMessage, MessagePr
     let steps = (beams - beams % 2) as f64;
     let view = if step > 0.0 { step * steps } else { view };
     let is_view = view > 0.0 && view <= std::f64::consts::TAU + 0.1 && first.abs() <= std::f64::consts::TAU;
-    let looks = is_view.then_some(LaserView { view, turn: first + view / 2.0 });
+    let back = if kind.is_rear() { std::f64::consts::PI } else { 0.0 };
+    let looks = is_view.then_some(LaserView { view, turn: first + view / 2.0 + back });
     let (corrected, odometry, times) = match kind {
         LaserKind::Raw => (Pose::IDENTITY, Pose::IDENTITY, poses),
         _ => (pose(words, poses)?, pose(words, poses + 3)?, poses + 6 + SPEEDS),

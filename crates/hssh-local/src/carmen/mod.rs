@@ -4,13 +4,14 @@
 //! |---|---|
 //! | `FLASER n r… x y θ x y θ t host t` | a scan, the corrected pose (for scoring only) and the raw odometry |
 //! | `ROBOTLASER1`, `RAWLASER1` | the same, and how the laser looks; `RAWLASER1` has no poses: odometry before it counts |
-//! | `RLASER …` | as `FLASER`, of a laser that looks back: not used beside others, which is said |
+//! | `RLASER …`, `ROBOTLASER2 …` | as `FLASER` and `ROBOTLASER1`, of a laser that looks back: beside others used on request only, which is said |
 //! | `ODOM x y θ …` | raw odometry between scans |
 //! | `PARAM name value …` | `robot_front_laser_max`: from that range on nothing came back; `robot_frontlaser_offset` and its kin: where the laser sits; `laser_front_laser_fov`: how wide it looks |
 //! | anything else | counted |
 //!
 //! Names of messages may be in capitals or not. The last of several values of a parameter counts, for the whole log. Of several laser
-//! messages one kind is read: `FLASER` before `ROBOTLASER1` before `RAWLASER1` before `RLASER`.
+//! messages one kind is read: `FLASER` before `ROBOTLASER1` before `RAWLASER1` before `RLASER` before `ROBOTLASER2`;
+//! or those of several lasers are merged.
 
 mod error;
 mod facing;
@@ -23,6 +24,7 @@ mod message;
 mod mount;
 mod noise;
 mod order;
+mod others;
 mod pace;
 mod position;
 mod raw;

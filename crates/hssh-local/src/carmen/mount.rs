@@ -3,12 +3,13 @@
 use hssh_metrics::Pose;
 
 use super::error::LogWarning;
-use super::message::LaserKind;
 use super::raw::RawLog;
 
 /// The parameters that say it: metres ahead, metres to the left, radians.
 const PARAMETERS: [&str; 3] =
     ["robot_frontlaser_offset", "robot_frontlaser_side_offset", "robot_frontlaser_angular_offset"];
+/// Of a laser that looks back: metres along its own middle beam, whatever the sign.
+const REAR: &str = "robot_rearlaser_offset";
 /// No laser sits farther from the axis of its robot, in metres.
 const FARTHEST: f64 = 3.0;
 /// Two poses that differ by less are equal: logs round to millimetres.
@@ -39,17 +40,28 @@ impl RawLog {
         (told.unwrap_or(std::f64::consts::PI), turn.unwrap_or(0.0), told.is_some())
     }
 
-    /// Makes the trajectory that of the laser, from which all ranges are measured.
-    pub(super) fn move_to_laser(&mut self, known: &LaserMount, warnings: &mut Vec<LogWarning>) {
-        let by_parameters = if known.pose.is_none() { self.told_by_parameters(warnings) } else { None };
+    /// Makes the trajectory that of the laser, from which all ranges are measured, and says where it sits on the robot.
+    pub(super) fn move_to_laser(&mut self, known: &LaserMount, warnings: &mut Vec<LogWarning>) -> Pose {
+        let is_rear = self.scans.first().is_some_and(|scan| scan.kind.is_rear());
+        let by_parameters = match (known.pose, is_rear) {
+            (Some(_), _) => None,
+            (None, true) => self.rear_told_by_parameter(warnings),
+            (None, false) => self.told_by_parameters(warnings),
+        };
         let (mut pose, source) = match (known.pose, self.told_by_poses(), by_parameters) {
             (Some(pose), ..) => (pose, "who gave it"),
-            (None, Some(pose), _) => (pose, "the difference of the two poses in each FLASER message"),
-            (None, None, Some(pose)) => (pose, "the log's parameter robot_frontlaser_offset"),
-            (None, None, None) => return,
+            (None, Some(pose), _) => (pose, "the difference of the two poses in each laser message"),
+            (None, None, Some(pose)) => (
+                pose,
+                if is_rear {
+                    "the log's parameter robot_rearlaser_offset"
+                } else {
+                    "the log's parameter robot_frontlaser_offset"
+                },
+            ),
+            (None, None, None) => return Pose::IDENTITY,
         };
         // That a rear laser looks back is said by its scans.
-        let is_rear = self.scans.first().is_some_and(|scan| scan.kind == LaserKind::Rear);
         if is_rear && pose.theta.abs() > std::f64::consts::FRAC_PI_2 {
             pose = Pose::new(pose.x, pose.y, pose.theta - std::f64::consts::PI);
         }
@@ -59,6 +71,17 @@ impl RawLog {
         if pose.translation().norm() > NEGLIGIBLE || pose.theta.abs() > NEGLIGIBLE {
             warnings.push(LogWarning::LaserPose { pose, source });
         }
+        pose
+    }
+
+    fn rear_told_by_parameter(&self, warnings: &mut Vec<LogWarning>) -> Option<Pose> {
+        let value = self.parameter(REAR).filter(|value| *value != 0.0)?;
+        if value.abs() > FARTHEST {
+            let expected = "in metres, and within 3 m of the robot's axis";
+            warnings.push(LogWarning::OddParameter { name: REAR, value, expected });
+            return None;
+        }
+        Some(Pose::new(-value.abs(), 0.0, 0.0))
     }
 
     fn told_by_parameters(&self, warnings: &mut Vec<LogWarning>) -> Option<Pose> {

@@ -87,31 +87,30 @@ impl RawLog {
 
     /// Of messages that tell the same scans, or those of other lasers, the most useful kind is kept; that a laser is not used is said.
     pub(super) fn keep_best_kind(&mut self, warnings: &mut Vec<LogWarning>) {
-        let best = self.scans.iter().map(|scan| scan.kind).max();
-        let rear = self.scans.iter().filter(|scan| scan.kind == LaserKind::Rear).count();
-        if rear > 0 && best != Some(LaserKind::Rear) {
+        let Some(best) = self.scans.iter().map(|scan| scan.kind).max() else { return };
+        let rear = self.scans.iter().filter(|scan| scan.kind.is_rear());
+        if let Some(other) = rear.clone().next().filter(|_| !best.is_rear()) {
+            let (count, other, used) = (rear.count(), other.kind.name(), best.name());
             let text = format!(
-                "scans of a second laser, which looks back (RLASER), are not used, {rear} in all: what the one that looks ahead shows is the map"
+                "scans of a second laser, which looks back ({other}), are not used, {count} in all: what the one that looks ahead shows is the map; \
+                 --scan {used},{other} merges them"
             );
             warnings.push(LogWarning::Remark { text, is_loss: false });
         }
-        let others = self.scans.iter().filter(|scan| Some(scan.kind) != best);
-        for scan in others {
-            let name = match scan.kind {
-                LaserKind::Rear => "RLASER",
-                LaserKind::Raw => "RAWLASER1",
-                LaserKind::Robot => "ROBOTLASER1",
-                LaserKind::Front => "FLASER",
-            };
-            *self.skipped.entry(name.to_owned()).or_default() += 1;
+        for scan in self.scans.iter().filter(|scan| scan.kind != best) {
+            *self.skipped.entry(scan.kind.name().to_owned()).or_default() += 1;
         }
+        self.keep(best);
+    }
+
+    /// Leaves one kind of scans. What is not read says nothing of the way either.
+    pub(super) fn keep(&mut self, kind: LaserKind) {
         let gone: BTreeSet<usize> =
-            self.scans.iter().filter(|scan| Some(scan.kind) != best).map(|scan| scan.moment).collect();
+            self.scans.iter().filter(|scan| scan.kind != kind).map(|scan| scan.moment).collect();
         if gone.is_empty() {
             return;
         }
-        // What is not read says nothing of the way either.
-        self.scans.retain(|scan| Some(scan.kind) == best);
+        self.scans.retain(|scan| scan.kind == kind);
         for scan in &mut self.scans {
             scan.moment -= gone.range(..scan.moment).count();
         }
@@ -132,7 +131,11 @@ impl RawLog {
             let found = scan.ranges.len();
             if found != expected {
                 let problem = MessageProblem::OtherBeamCount { found, expected };
-                warnings.push(LogWarning::Message { at: scan.at, kind: "FLASER".to_owned(), problem });
+                warnings.push(LogWarning::Message {
+                    at: scan.at,
+                    kind: scan.kind.name().to_owned(),
+                    problem,
+                });
             }
             found == expected
         });

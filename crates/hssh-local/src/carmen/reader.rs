@@ -7,6 +7,7 @@ use flate2::bufread::MultiGzDecoder;
 use super::error::{LogError, LogWarning};
 use super::message::Message;
 use super::position::LogPosition;
+use crate::lines::{LineEnds, is_line_end};
 
 /// How every gzip file begins.
 const GZIP_MAGIC: [u8; 2] = [0x1f, 0x8b];
@@ -19,6 +20,7 @@ pub struct LogReader<'a> {
     line: u64,
     warnings: Vec<LogWarning>,
     broken: bool,
+    ends: LineEnds,
 }
 
 impl<'a> LogReader<'a> {
@@ -32,7 +34,7 @@ impl<'a> LogReader<'a> {
         let is_gzip = source.fill_buf().map_err(failed)?.starts_with(&GZIP_MAGIC);
         let source: Box<dyn BufRead + 'a> =
             if is_gzip { Box::new(BufReader::new(MultiGzDecoder::new(source))) } else { Box::new(source) };
-        Ok(LogReader { source, line: 0, warnings: Vec::new(), broken: false })
+        Ok(LogReader { source, line: 0, warnings: Vec::new(), broken: false, ends: LineEnds::default() })
     }
 
     /// The line of the message read last, counted from 1.
@@ -83,7 +85,7 @@ impl<'a> LogReader<'a> {
         }
         self.line += 1;
         let mut bytes = Vec::new();
-        let read = self.source.by_ref().take(LONGEST_LINE as u64).read_until(b'\n', &mut bytes);
+        let read = self.ends.read_line(&mut self.source, LONGEST_LINE, &mut bytes);
         if bytes.len() >= LONGEST_LINE {
             return Err(LogError::EndlessLine { line: self.line, most: LONGEST_LINE });
         }
@@ -96,7 +98,7 @@ impl<'a> LogReader<'a> {
             self.break_off(&error.to_string());
             return Ok(None);
         }
-        let is_whole = bytes.last() == Some(&b'\n');
+        let is_whole = bytes.last().is_some_and(|last| is_line_end(*last));
         if bytes.is_empty() {
             self.line -= 1;
             return Ok(None);

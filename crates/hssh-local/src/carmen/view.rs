@@ -73,7 +73,8 @@ pub(super) fn shift(first: &[f64], second: &[f64]) -> Option<f64> {
         });
         differences.sum::<f64>() / length as f64
     };
-    let most = beams / 2;
+    // Half a turn of a scan all around looks in a corridor as no turn does.
+    let most = beams * 2 / 5;
     let all: Vec<(i64, f64)> = (-most..=most).map(|shift| (shift, apart(shift))).collect();
     let average = all.iter().map(|(_, apart)| apart).sum::<f64>() / all.len() as f64;
     let &(best, least) = all.iter().min_by(|a, b| a.1.total_cmp(&b.1))?;

@@ -94,10 +94,41 @@ fn in_plain_words(problem: &str) -> String {
         let place = first.split(':').next().filter(|place| place.starts_with("line")).unwrap_or("the file");
         return format!("{place}: a key stands there for the second time; leave one of the two out");
     }
-    let plain = first
-        .replace("invalid f64", "this is no number")
-        .replace("invalid floating point", "this is no number");
+    const PLAIN: [(&str, &str); 7] = [
+        ("invalid f64", "this is no number"),
+        ("invalid floating point", "this is no number"),
+        (
+            "expected sequence start",
+            "three numbers belong here, as in `origin: [0, 0, 0]`: metres, metres and radians",
+        ),
+        (
+            "expected mapping start",
+            "a map's description has lines such as `resolution: 0.05`, with a space behind the colon",
+        ),
+        (
+            "expected an array of length 3",
+            "but `origin` has three, as in [0, 0, 0]: metres, metres and radians",
+        ),
+        ("invalid length", "the number of numbers is"),
+        ("unknown variant", "the `mode` is"),
+    ];
+    let plain = PLAIN.into_iter().fold(first.to_owned(), |text, (theirs, ours)| text.replace(theirs, ours));
     plain.split(", set ").next().unwrap_or_default().to_owned()
+}
+
+/// The text of a file, without its byte order mark, whichever of Unicode's forms it has.
+fn text_of(bytes: &[u8]) -> Option<String> {
+    let units = |unit: fn([u8; 2]) -> u16, bytes: &[u8]| {
+        let (pairs, rest) = bytes.as_chunks();
+        let text = String::from_utf16(&pairs.iter().copied().map(unit).collect::<Vec<u16>>()).ok();
+        text.filter(|_| rest.is_empty())
+    };
+    match bytes {
+        [0xFF, 0xFE, rest @ ..] => units(u16::from_le_bytes, rest),
+        [0xFE, 0xFF, rest @ ..] => units(u16::from_be_bytes, rest),
+        [0xEF, 0xBB, 0xBF, rest @ ..] => std::str::from_utf8(rest).ok().map(str::to_owned),
+        _ => std::str::from_utf8(bytes).ok().map(str::to_owned),
+    }
 }
 
 impl Description {
@@ -114,10 +145,12 @@ impl Description {
         }
     }
 
-    pub(super) fn parse(file: &Path, text: &str) -> Result<Self, MapError> {
+    pub(super) fn parse(file: &Path, bytes: &[u8]) -> Result<Self, MapError> {
         let refuse = |problem: String| MapError::Description { file: file.to_owned(), problem };
-        let text = text.trim_start_matches('\u{feff}');
-        let description: Description = serde_saphyr::from_str(text).map_err(|error| MapError::Yaml {
+        let text = text_of(bytes).ok_or_else(|| {
+            refuse("this is neither text in UTF-8 nor in UTF-16 with its mark; give the YAML file that names the image".to_owned())
+        })?;
+        let description: Description = serde_saphyr::from_str(&text).map_err(|error| MapError::Yaml {
             file: file.to_owned(),
             problem: in_plain_words(&error.to_string()),
         })?;

@@ -23,7 +23,7 @@ pub fn read_map(yaml: &Path) -> Result<OccupancyGrid, MapError> {
 /// # Errors
 /// As [`read_map`].
 pub fn read_map_with_remarks(yaml: &Path) -> Result<(OccupancyGrid, Vec<String>), MapError> {
-    let text = std::fs::read_to_string(yaml).map_err(MapError::io("read", yaml))?;
+    let text = std::fs::read(yaml).map_err(MapError::io("read", yaml))?;
     let description = Description::parse(yaml, &text)?;
     let image = yaml.parent().unwrap_or(Path::new("")).join(&description.image);
     let bytes = std::fs::read(&image).map_err(|source| MapError::NoImage {

@@ -27,7 +27,7 @@ pub(super) fn outlines(labels: &[u32], lattice: &Lattice, regions: usize, off: f
             let points: Vec<[f64; 2]> =
                 ring.iter().map(|corner| lattice.point(corner.map(f64::from))).collect();
             let area = signed_area(&points);
-            let ring = straightened(points, off);
+            let ring = straightened_apart(points, off);
             if ring.len() > 2 {
                 if area > 0.0 { outline.around.push(ring) } else { outline.holes.push(ring) }
             }
@@ -92,8 +92,28 @@ fn rings(mut sides: BTreeMap<Corner, Vec<Corner>>) -> Vec<Vec<Corner>> {
             ring.push(next);
             (before, here) = (Some(here), next);
         }
-        rings.push(ring);
+        rings.extend(without_touches(ring));
     }
+    rings
+}
+
+/// A ring that comes to a corner twice as rings that do not: what it encloses between two cells that touch there is a hole.
+fn without_touches(ring: Vec<Corner>) -> Vec<Vec<Corner>> {
+    let mut rings = Vec::new();
+    let mut open: Vec<Corner> = Vec::with_capacity(ring.len());
+    let mut places: BTreeMap<Corner, usize> = BTreeMap::new();
+    for corner in ring {
+        if let Some(&place) = places.get(&corner) {
+            let inner = open.split_off(place);
+            for corner in &inner {
+                places.remove(corner);
+            }
+            rings.push(inner);
+        }
+        places.insert(corner, open.len());
+        open.push(corner);
+    }
+    rings.push(open);
     rings
 }
 
@@ -109,6 +129,46 @@ fn signed_area(ring: &[[f64; 2]]) -> f64 {
         ax * by - ay * bx
     });
     twice.sum::<f64>() / 2.0
+}
+
+/// A ring that does not touch itself, with fewer corners: straightened as far as it still does not.
+fn straightened_apart(ring: Vec<[f64; 2]>, mut off: f64) -> Vec<[f64; 2]> {
+    const TRIES: usize = 4;
+    for _ in 0..TRIES {
+        let straight = straightened(ring.clone(), off);
+        if !touches_itself(&straight) {
+            return straight;
+        }
+        off /= 2.0;
+    }
+    straightened(ring, 0.0)
+}
+
+/// Whether two sides of a ring that do not follow one another meet.
+fn touches_itself(ring: &[[f64; 2]]) -> bool {
+    let side = |at: usize| [ring[at], ring[(at + 1) % ring.len()]];
+    let last = ring.len() - 1;
+    (0..ring.len()).any(|one| {
+        let others = one + 2..ring.len() - usize::from(one == 0);
+        others.filter(|_| last > 1).any(|other| meet(side(one), side(other)))
+    })
+}
+
+/// Whether two lines have a point in common.
+fn meet([a, b]: [[f64; 2]; 2], [c, d]: [[f64; 2]; 2]) -> bool {
+    /// Less is what is lost of a product of lengths.
+    const NOTHING: f64 = 1e-9;
+    let is_apart = |axis: usize| {
+        a[axis].max(b[axis]) < c[axis].min(d[axis]) || c[axis].max(d[axis]) < a[axis].min(b[axis])
+    };
+    if is_apart(0) || is_apart(1) {
+        return false;
+    }
+    let side =
+        |a: [f64; 2], b: [f64; 2], p: [f64; 2]| (b[0] - a[0]) * (p[1] - a[1]) - (b[1] - a[1]) * (p[0] - a[0]);
+    let is_between =
+        |one: f64, other: f64| !(one > NOTHING && other > NOTHING || one < -NOTHING && other < -NOTHING);
+    is_between(side(a, b, c), side(a, b, d)) && is_between(side(c, d, a), side(c, d, b))
 }
 
 /// A ring with fewer corners: between the two that are farthest apart, as Douglas and Peucker have it.
@@ -145,6 +205,40 @@ fn straighten(line: &[[f64; 2]], off: f64, straight: &mut Vec<[f64; 2]>) {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    /// However coarsely a ring is straightened, it does not come to touch itself.
+    #[test]
+    fn what_is_straightened_stays_apart() {
+        let ring = |points: &[[f64; 2]]| touches_itself(points);
+        assert!(!ring(&[[0.0, 0.0], [2.0, 0.0], [2.0, 1.0], [0.0, 1.0]]));
+        assert!(ring(&[[0.0, 0.0], [4.0, 0.0], [4.0, 4.0], [2.0, 0.0], [0.0, 4.0]]), "a corner on a side");
+        assert!(ring(&[[0.0, 0.0], [4.0, 4.0], [4.0, 0.0], [0.0, 4.0]]), "two sides that cross");
+        let spiral = vec![
+            [0.0, 0.0],
+            [9.0, 0.0],
+            [9.0, 4.0],
+            [5.0, 4.0],
+            [5.0, 1.0],
+            [4.0, 1.0],
+            [4.0, 4.0],
+            [0.0, 4.0],
+        ];
+        let straight = straightened_apart(spiral.clone(), 3.5);
+        assert!(!touches_itself(&straight) && straight.len() >= 4, "{straight:?}");
+        assert!(!touches_itself(&straightened_apart(spiral, 0.0)));
+    }
+
+    /// Cells around a hole that the last two close off only by touching in a corner.
+    #[test]
+    fn no_ring_touches_itself() {
+        let lattice = Lattice::new(3, 3, 1.0, [0.0, 0.0]).unwrap();
+        let is_in = |column: u32, row: u32| (column, row) != (1, 1) && (column, row) != (2, 2);
+        let labels: Vec<u32> =
+            lattice.cells().map(|cell| if is_in(cell.column, cell.row) { 0 } else { NO_PIECE }).collect();
+        let [outline] = &outlines(&labels, &lattice, 1, 0.0)[..] else { panic!("one region") };
+        let areas = |rings: &[Vec<[f64; 2]>]| rings.iter().map(|ring| signed_area(ring)).collect::<Vec<_>>();
+        assert_eq!((areas(&outline.around), areas(&outline.holes)), (vec![8.0], vec![-1.0]));
+    }
 
     /// A ring of cells around a hole, and a cell that touches it in a corner.
     #[test]

@@ -1,10 +1,11 @@
 //! Reading logs: what is in them, what is wrong with them, and where.
 
+use std::f64::consts::PI;
 use std::io::Write;
 
 use flate2::Compression;
 use flate2::write::GzEncoder;
-use hssh_local::{LaserLog, LaserMount, LogError, LogPosition, LogWarning};
+use hssh_local::{LaserKind, LaserLog, LaserMount, LogError, LogPosition, LogWarning};
 use hssh_metrics::Pose;
 
 /// Three beams are enough to see everything.
@@ -148,6 +149,17 @@ fn a_beam_without_a_range_is_one_that_brought_nothing() {
 }
 
 #[test]
+fn a_line_ends_as_any_system_ends_it() {
+    let usual = read(LOG).unwrap();
+    for end in ["\r\n", "\r"] {
+        let log = read(&LOG.replace('\n', end)).unwrap();
+        assert_eq!(log, usual, "{end:?}");
+        let bad = read(&format!("{LOG}FLASER 3 x\n").replace('\n', end)).unwrap();
+        assert!(bad.warnings.iter().any(|warning| warning.to_string().starts_with("line 7: ")), "{end:?}");
+    }
+}
+
+#[test]
 fn messages_in_small_letters_and_behind_a_mark_are_messages() {
     assert_eq!(read(&LOG.to_lowercase()).unwrap().scans, read(LOG).unwrap().scans);
     assert_eq!(read(&LOG.replace('\n', "\r\n")).unwrap().scans, read(LOG).unwrap().scans);
@@ -267,6 +279,101 @@ fn lasers_that_say_how_they_look_are_believed() {
     assert_eq!((raw.scans.len(), raw.scans[0].odometry.x), (1, 1.0));
     let broken = ROBOT_LASER.replace("2 9 9 1.2", "900 9 9 1.2");
     assert_eq!(read(&broken).unwrap().scans.len(), 1);
+}
+
+/// A drive through a room, x from −2 to 4 and y from −2 to 2, with a laser ahead of the axis and one behind it, which see half a turn each; the
+/// second one's messages follow those of the first.
+fn two_lasers(message: impl Fn(LaserKind, &str, Pose, Pose, f64) -> String) -> String {
+    let mounts =
+        [(LaserKind::Front, Pose::new(0.3, 0.1, 0.0)), (LaserKind::Rear, Pose::new(-0.25, -0.2, PI))];
+    let mut log = String::new();
+    for step in 0..60 {
+        for (kind, mount) in mounts {
+            let time = f64::from(step) * 0.1 + if kind == LaserKind::Rear { 0.04 } else { 0.0 };
+            let robot = in_the_room(time);
+            let laser = robot.compose(mount);
+            let beams = (0..181).map(|beam| wall(laser, f64::to_radians(f64::from(beam) - 90.0)));
+            let beams = beams.map(|range| format!("{range:.3}")).collect::<Vec<_>>().join(" ");
+            log += &message(kind, &beams, laser, robot, time);
+        }
+    }
+    log
+}
+
+fn in_the_room(time: f64) -> Pose {
+    Pose::new(0.3 * time, 0.1 * time, 0.4 * time)
+}
+
+/// How far a wall of the room is.
+fn wall(from: Pose, bearing: f64) -> f64 {
+    let (sin, cos) = (from.theta + bearing).sin_cos();
+    let walls = [(4.0 - from.x) / cos, (-2.0 - from.x) / cos, (2.0 - from.y) / sin, (-2.0 - from.y) / sin];
+    walls.into_iter().filter(|range| *range > 0.0).fold(f64::INFINITY, f64::min)
+}
+
+fn flaser(kind: LaserKind, beams: &str, laser: Pose, robot: Pose, time: f64) -> String {
+    let poses = format!("{} {} {} {} {} {}", laser.x, laser.y, laser.theta, robot.x, robot.y, robot.theta);
+    format!("{} 181 {beams} {poses} {time} nohost {time}\n", kind.name())
+}
+
+fn robotlaser(kind: LaserKind, beams: &str, laser: Pose, robot: Pose, time: f64) -> String {
+    let name = if kind == LaserKind::Front { "ROBOTLASER1" } else { "ROBOTLASER2" };
+    let poses = format!("{} {} {} {} {} {}", laser.x, laser.y, laser.theta, robot.x, robot.y, robot.theta);
+    format!(
+        "{name} 0 -1.5707963 3.1415926 0.0174532925 30 0.01 0 181 {beams} 0 {poses} 0 0 0 0 0 {time} nohost {time}\n"
+    )
+}
+
+#[test]
+fn two_lasers_see_the_walls_all_around() {
+    let front_and_rear = [LaserKind::Front, LaserKind::Rear];
+    let robot = [LaserKind::Robot, LaserKind::RobotRear];
+    for (text, chosen) in [(two_lasers(flaser), front_and_rear), (two_lasers(robotlaser), robot)] {
+        let alone = read(&text).unwrap();
+        assert!(
+            alone.warnings.iter().any(|warning| warning.to_string().contains("--scan")),
+            "a laser is not used"
+        );
+        let log = LaserLog::read_lasers(text.as_bytes(), &LaserMount::default(), &chosen).unwrap();
+        assert_eq!((log.scans.len(), alone.scans.len()), (60, 60));
+        let merged = format!("merged with 60 scans of {}, of a laser -0.25 m ahead", chosen[1].name());
+        assert!(log.warnings.iter().any(|warning| warning.to_string().starts_with(&merged)), "{merged}");
+        for (step, logged) in log.scans.iter().enumerate() {
+            let laser = in_the_room(step as f64 * 0.1).compose(Pose::new(0.3, 0.1, 0.0));
+            assert!(laser.between(logged.odometry).translation().norm() < 1e-6);
+            let hits: Vec<_> = logged.scan.hits(50.0).collect();
+            assert!(hits.len() > 300, "{}", hits.len());
+            for (beam, hit) in hits {
+                let at = laser.translation() + laser.rotation() * hit;
+                let off = [at.x + 2.0, 4.0 - at.x, at.y + 2.0, 2.0 - at.y].map(f64::abs);
+                // Half a degree of the direction, aslant.
+                assert!(off.into_iter().fold(f64::MAX, f64::min) < 0.06, "scan {step}, beam {beam}: {at}");
+            }
+        }
+    }
+}
+
+/// Where poses do not tell, the parameter does, whatever its sign; sweeps of another moment are not merged.
+#[test]
+fn a_rear_laser_sits_where_the_log_says() {
+    let chosen = [LaserKind::Front, LaserKind::Rear];
+    for said in ["-0.25", "0.25"] {
+        let text = format!(
+            "PARAM robot_rearlaser_offset {said} nohost 0\nFLASER 3 2 2 2 9 9 9 0 0 0 0.1 nohost 0.1\nRLASER 3 1 1 1 8 8 8 0 0 0 0.1 nohost 0.1\nFLASER 3 2 2 2 9 9 9 0.1 0 0 0.9 nohost 0.9\n"
+        );
+        let log = LaserLog::read_lasers(text.as_bytes(), &LaserMount::default(), &chosen).unwrap();
+        let behind =
+            |scan: usize| log.scans[scan].scan.hits(50.0).find(|(_, hit)| hit.x < -0.5 && hit.y.abs() < 0.1);
+        assert!((behind(0).unwrap().1.x + 1.25).abs() < 1e-9);
+        assert_eq!(behind(1), None);
+    }
+}
+
+#[test]
+fn a_laser_that_is_not_there_is_named() {
+    let asked = [LaserKind::Front, LaserKind::RobotRear];
+    let error = LaserLog::read_lasers(LOG.as_bytes(), &LaserMount::default(), &asked).unwrap_err();
+    assert_eq!(error.to_string(), "the log has no ROBOTLASER2 messages; it has FLASER, RLASER");
 }
 
 #[test]

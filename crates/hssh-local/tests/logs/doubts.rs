@@ -205,6 +205,27 @@ fn turns_that_odometry_does_not_tell_are_doubted() {
     assert!(turns_doubted(&late(4)));
 }
 
+/// A laser that looks all around sees the same in a corridor whichever way the robot looks: no half turn is seen where there is none.
+#[test]
+fn half_a_turn_in_a_corridor_is_no_turn() {
+    let mut log = String::from("PARAM robot_front_laser_max 12 h 0\nPARAM laser_front_laser_fov 360 h 0\n");
+    for step in 0..120_u32 {
+        let (x, heading) = (0.2 * f64::from(step), 0.02 * f64::from(step % 7));
+        let beam = |beam: u32| {
+            let bearing = f64::from(beam).to_radians() - PI + heading;
+            let scatter = 0.02 * f64::from(beam * beam + 31 * step).sin();
+            format!("{:.3}", (1.2 / bearing.sin().abs() + scatter).min(12.0))
+        };
+        let ranges: Vec<String> = (0..360).map(beam).collect();
+        log += &format!(
+            "FLASER 360 {} {x:.3} 0 {heading} {x:.3} 0 {heading} {step} h {step}\n",
+            ranges.join(" ")
+        );
+    }
+    assert!(!turns_doubted(&log));
+    assert_eq!(view_doubted(&read(&log).unwrap()), None);
+}
+
 #[test]
 fn a_laser_that_repeats_itself_on_the_way_is_doubted() {
     let log = driving(0.0, false);

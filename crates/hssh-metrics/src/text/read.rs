@@ -82,7 +82,8 @@ struct Reader {
 
 impl Reader {
     fn read_line(&mut self, line: usize, content: &str) -> Result<(), ReadProblem> {
-        let content = content.split('#').next().unwrap_or_default();
+        // Some programs begin comments by a percent sign.
+        let content = content.split(['#', '%']).next().unwrap_or_default();
         let mut words = content.split_whitespace();
         let Some(record) = words.next() else { return Ok(()) };
         if self.records.read(line, &record.to_ascii_uppercase(), words)? {

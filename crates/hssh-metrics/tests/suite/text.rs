@@ -41,7 +41,7 @@ fn the_two_formats_order_the_information_differently() {
 
 #[test]
 fn labels_comments_and_line_ends_do_not_matter() {
-    let text = "# a graph\r\nVERTEX_SE2 30 1 0 0\r\n\r\nEDGE_SE2 30 7 -1e0 0 .5 1 0 0 1 0 1 # back\r\n\
+    let text = "% a graph\r\nVERTEX_SE2 30 1 0 0\r\n\r\nEDGE_SE2 30 7 -1e0 0 .5 1 0 0 1 0 1 # back\r\n\
                 VERTEX_SE2 7 0 0 7\r\nVERTEX_SE2 12 0 0 0\r\nFIX 12 7\r\nVERTEX_XY 3 1 1\r\nPARAMS_SE2OFFSET 0 0 0 0";
     let file = read_pose_graph(text.as_bytes()).unwrap();
     assert_eq!(file.labels, [3, 7, 12, 30]);

@@ -21,6 +21,9 @@ pub struct PoseGraphAccount {
     /// What of the file should be in this answer and is not, in words, if there is anything.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub partial: Option<String>,
+    /// Why the whole answer may mean nothing, if it may.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub doubt: Option<String>,
     /// How many edges there are, priors not among them.
     pub edges: usize,
     /// How many of them close loops.
@@ -168,6 +171,9 @@ impl fmt::Display for PoseGraphAccount {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         if let Some(partial) = &self.partial {
             writeln!(f, "PARTIAL: {partial}")?;
+        }
+        if let Some(doubt) = &self.doubt {
+            writeln!(f, "DOUBTFUL: {doubt}")?;
         }
         let landmarks = match self.landmarks.len() {
             0 => String::new(),

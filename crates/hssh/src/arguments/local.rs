@@ -8,6 +8,7 @@ use hssh::pipeline::{LaserChoice, PlaceChoice};
 use hssh_local::{PlaceOptions, RegionOptions, RoadmapOptions, UnknownSpace};
 
 use super::export::FilesArguments;
+use super::page::PageArguments;
 
 #[derive(Debug, Args)]
 pub(crate) struct ExploreArguments {
@@ -133,6 +134,8 @@ pub(crate) struct StarsArguments {
     /// Draw the map with its medial axis, gateways and stars as SVG.
     #[arg(long, value_name = "FILE")]
     pub(crate) svg: Option<PathBuf>,
+    #[command(flatten)]
+    pub(crate) page: PageArguments,
 }
 
 impl StarsArguments {
@@ -158,12 +161,12 @@ impl StarsArguments {
     }
 }
 
-/// What of a bag is used.
+/// What of a recording is used.
 #[derive(Clone, Debug, Default, Args)]
 #[command(next_help_heading = "Bags")]
 pub(crate) struct TopicArguments {
     /// The topic with the scans of a bag [default: of the laser that looks widest]; several with commas between them, such as
-    /// `/front,/rear`, are merged to what one laser would see all around
+    /// `/front,/rear`, are merged to what one laser would see all around; of a CARMEN log the names of messages, such as `FLASER,RLASER`.
     #[arg(long, value_name = "TOPIC")]
     pub(crate) scan: Option<String>,
     /// The topic with the odometry of a bag, or the frame of /tf in which the robot moves; `none` for scan matching alone

@@ -3,6 +3,7 @@
 use std::path::Path;
 
 use hssh::account::{PlacesAccount, PointName};
+use hssh::page::PlanData;
 use hssh_draw::{GridPicture, RegionPicture, draw_grid};
 use hssh_local::{
     DoorOptions, OccupancyGrid, PlaceGraph, PlaceOptions, RegionMap, Roadmap, doors, without_rims,
@@ -45,6 +46,9 @@ pub(super) fn run(
     tell(&account, options)?;
     if let Some(file) = &options.svg {
         write_file(file, &picture(grid, &map, &roadmap, graph.as_ref(), &account))?;
+    }
+    if let Some(file) = &options.page.html {
+        write_file(file, &PlanData::new(&account, grid).to_html())?;
     }
     write_places(&options.files, &map, &account)?;
     Ok(if account.places.is_empty() { Status::NothingConsistent } else { Status::Found })

@@ -28,7 +28,7 @@ pub(crate) fn run(options: &StarsArguments) -> Result<Status, Failure> {
         std::iter::once(&options.map).chain(&options.names).map(PathBuf::as_path).collect();
     refuse_unfit(&options.files, false)?;
     let exported = options.files.export.iter().map(|(_, file)| Some(file));
-    check_outputs(&inputs, std::iter::once(options.svg.as_ref()).chain(exported))?;
+    check_outputs(&inputs, [options.svg.as_ref(), options.page.html.as_ref()].into_iter().chain(exported))?;
     let source = Source::open(&options.map)?;
     let is_yaml = options.map.extension().is_some_and(|ending| ending == "yaml" || ending == "yml");
     let grid = match source.kind() {
@@ -72,6 +72,7 @@ fn refuse_region_options(options: &StarsArguments, given: &str) -> Result<(), Fa
         (options.detail, "--detail"),
         (options.names.is_some(), "--names"),
         (!options.files.export.is_empty(), "--export"),
+        (options.page.html.is_some(), "--html"),
     ];
     match useless.iter().find(|(is_given, _)| *is_given) {
         Some((_, option)) => Err(Failure::Usage(format!(

@@ -3,6 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use hssh_causal::ParseError;
+use hssh_local::LaserKind;
 
 use crate::kind::FileKind;
 
@@ -100,6 +101,14 @@ pub enum FileError {
         file: PathBuf,
         /// Of which kind.
         kind: FileKind,
+    },
+    /// A name after `--scan` that no messages of a laser have.
+    #[error("--scan {name}: the lasers of {}, a CARMEN log, go by the names of their messages: {}", file.display(), LaserKind::ALL.map(LaserKind::name).join(", "))]
+    NoLaser {
+        /// The log.
+        file: PathBuf,
+        /// The name.
+        name: String,
     },
     /// Topics were chosen of something that has none.
     #[error("{} has no topics nor frames to choose from by --scan, --odom or --base-frame: it is {kind}", file.display())]

@@ -3,17 +3,17 @@
 use std::path::Path;
 
 use hssh_io::{KnownLaser, read_json_lines, read_table};
-use hssh_local::LaserLog;
+use hssh_local::{LaserKind, LaserLog};
 
 use super::error::FileError;
 use super::source::Source;
 use crate::kind::FileKind;
 use crate::pipeline::LaserChoice;
 
-/// What of a bag is used; what is not said is found.
+/// What of a recording is used; what is not said is found.
 #[derive(Clone, PartialEq, Eq, Debug, Default)]
 pub struct TopicChoice {
-    /// The topic with the scans.
+    /// The topic with the scans, several with commas between them; of a CARMEN log, the names of messages.
     pub scan: Option<String>,
     /// The topic with the odometry, or the frame of /tf in which the robot moves; `none` for scan matching alone.
     pub odometry: Option<String>,
@@ -22,6 +22,19 @@ pub struct TopicChoice {
 }
 
 impl TopicChoice {
+    /// The lasers of a CARMEN log that are chosen, by the names of their messages; none if nothing is.
+    ///
+    /// # Errors
+    /// If a name is that of no laser's messages.
+    pub fn lasers(&self, file: &Path) -> Result<Vec<LaserKind>, FileError> {
+        let names = self.scan.iter().flat_map(|names| names.split(','));
+        let kind = |name: &str| {
+            let unknown = || FileError::NoLaser { file: file.to_owned(), name: name.to_owned() };
+            LaserKind::named(name.trim().trim_start_matches('/')).ok_or_else(unknown)
+        };
+        names.map(kind).collect()
+    }
+
     /// Whether anything is chosen.
     #[must_use]
     pub fn is_given(&self) -> bool {
@@ -52,6 +65,12 @@ pub fn read_log(
     let alone = |log: LaserLog| ReadLog { log, used: Vec::new() };
     match source.kind() {
         FileKind::Recording(_) => bag::read_log(file, source, laser, topics),
+        FileKind::LaserLog(_) if topics.odometry.is_none() && topics.base_frame.is_none() => {
+            let chosen = topics.lasers(file)?;
+            LaserLog::read_lasers(source.into_content(), &mount, &chosen)
+                .map(alone)
+                .map_err(|error| FileError::Log { file: file.to_owned(), error: Box::new(error) })
+        }
         kind if topics.is_given() => Err(FileError::NoTopics { file: file.to_owned(), kind: kind.clone() }),
         FileKind::Table => {
             read_table(source.into_content(), &KnownLaser { view: mount.view, pose: mount.pose })

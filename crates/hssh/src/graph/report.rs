@@ -39,6 +39,7 @@ impl Optimized {
             version: 1,
             name,
             partial: partial(file),
+            doubt: doubt(file),
             edges: edges.len() - priors,
             closures: kinds.iter().zip(graph.edges()).filter(|&pair| closes(pair)).count(),
             priors,
@@ -91,6 +92,18 @@ fn partial(file: &GraphFile) -> Option<String> {
     ))
 }
 
+/// Why the whole answer may mean nothing.
+fn doubt(file: &GraphFile) -> Option<String> {
+    if let Some((line, turn)) = file.large_turn {
+        return Some(format!(
+            "line {line} turns by {turn} rad, more than a full circle: are these degrees? hssh takes radians"
+        ));
+    }
+    (file.empty_edges > 0 && file.graph.edges().is_empty()).then(|| {
+        "every measurement of the file has an information of zero in all directions: nothing says where a pose is".to_owned()
+    })
+}
+
 /// Into how many parts the graph falls that no measurement joins; landmarks that nobody saw are none.
 fn parts(file: &GraphFile) -> usize {
     let is_part = |component: &&Vec<PoseId>| {
@@ -116,11 +129,6 @@ fn remarks(file: &GraphFile) -> Vec<String> {
         remarks.push(format!(
             "the file holds {count} for doubtful: whether to believe them is decided as by --graduated, which takes the \
              place of switches and null hypotheses"
-        ));
-    }
-    if let Some((line, turn)) = file.large_turn {
-        remarks.push(format!(
-            "line {line} turns by {turn} rad, more than a full circle: are these degrees? hssh takes radians"
         ));
     }
     remarks

@@ -47,13 +47,16 @@ impl Source {
         let kind = FileKind::of(&beginning);
         let is_gzip = beginning.starts_with(&[0x1F, 0x8B]);
         let mount = laser.mount();
+        let chosen =
+            if matches!(kind, FileKind::Recording(_)) { Vec::new() } else { topics.choice().lasers(file)? };
+        let messages = || Incoming::Messages(GrowingLog::new(mount).of_lasers(&chosen));
         let incoming = match kind {
             FileKind::JsonLines => {
                 Incoming::Lines(JsonLines::new(KnownLaser { view: mount.view, pose: mount.pose }))
             }
             FileKind::Recording(_) if beginning.starts_with(b"\x89MCAP") => bag(file, laser, topics)?,
-            _ if is_gzip => Incoming::Messages(GrowingLog::new(mount)),
-            FileKind::LaserLog(_) | FileKind::Text => Incoming::Messages(GrowingLog::new(mount)),
+            _ if is_gzip => messages(),
+            FileKind::LaserLog(_) | FileKind::Text => messages(),
             kind => {
                 let wanted =
                     "messages of a CARMEN log, scans as lines of JSON, or an MCAP file, as they come";

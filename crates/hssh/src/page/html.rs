@@ -1,64 +1,68 @@
-//! The page as text: a frame, one style, one script, and the data between them. Nothing of the input gets into the page but as data.
+//! Pages as text: a frame, one style, one script, and the data between them. Nothing of the input gets into a page but as data.
 
 use base64::Engine as _;
 use base64::engine::general_purpose::STANDARD;
 use sha2::{Digest as _, Sha256};
 
-use super::data::PageData;
+/// What a page is before there are data.
+pub(super) struct Template {
+    /// The elements, with a comment where something is put.
+    frame: &'static str,
+    style: &'static str,
+    script: &'static str,
+}
 
-/// What the page is before there are data, with a comment where something is put.
-const FRAME: &str = include_str!("assets/page.html");
+/// A script: functions by concept, in an order in which each is told before it is used, and one call.
+macro_rules! script {
+    ($($part:literal)*) => {
+        concat!("\"use strict\";\n(() => {\n", $(include_str!(concat!("assets/js/", $part, ".js")),)* "})();\n")
+    };
+}
 
-const STYLE: &str = include_str!("assets/page.css");
+/// The page of an answer.
+pub(super) const ANSWER: Template = Template {
+    frame: include_str!("assets/page.html"),
+    style: include_str!("assets/page.css"),
+    script: script!(
+        "elements" "words" "replay" "paths" "placement" "view" "star_picture" "camera" "map_picture" "map_card" "detail_card" "time_card"
+        "ranking_card" "tree_card" "tables" "headline" "basis_card" "theme" "live" "main"
+    ),
+};
 
-/// The script: functions by concept, in an order in which each is told before it is used, and one call.
-const SCRIPT: &str = concat!(
-    "\"use strict\";\n(() => {\n",
-    include_str!("assets/js/elements.js"),
-    include_str!("assets/js/words.js"),
-    include_str!("assets/js/replay.js"),
-    include_str!("assets/js/paths.js"),
-    include_str!("assets/js/placement.js"),
-    include_str!("assets/js/view.js"),
-    include_str!("assets/js/star_picture.js"),
-    include_str!("assets/js/map_picture.js"),
-    include_str!("assets/js/map_card.js"),
-    include_str!("assets/js/detail_card.js"),
-    include_str!("assets/js/time_card.js"),
-    include_str!("assets/js/ranking_card.js"),
-    include_str!("assets/js/tree_card.js"),
-    include_str!("assets/js/tables.js"),
-    include_str!("assets/js/headline.js"),
-    include_str!("assets/js/basis_card.js"),
-    include_str!("assets/js/theme.js"),
-    include_str!("assets/js/live.js"),
-    include_str!("assets/js/main.js"),
-    "})();\n"
-);
+/// The page of a grid map.
+pub(super) const PLAN: Template = Template {
+    frame: include_str!("assets/plan.html"),
+    style: concat!(include_str!("assets/page.css"), include_str!("assets/plan.css")),
+    script: script!(
+        "elements" "words" "star_picture" "camera" "plan_words" "plan_picture" "plan_detail" "plan_tables" "theme" "plan_main"
+    ),
+};
 
-/// The page of some data.
-pub(super) fn page(data: &PageData) -> String {
-    // Only a page that was served asks for news.
-    let connect = if data.live.is_some() { "'self'" } else { "'none'" };
-    let policy = format!(
-        "default-src 'none'; img-src data:; style-src {}; script-src {}; connect-src {connect}; base-uri 'none'; form-action 'none'",
-        hash(STYLE),
-        hash(SCRIPT)
-    );
-    let parts = [
-        ("<!-- policy -->", policy.as_str()),
-        ("<!-- style -->", STYLE),
-        ("<!-- data -->", &harmless(&data.to_json())),
-        ("<!-- script -->", SCRIPT),
-    ];
-    let (mut page, mut rest) = (String::new(), FRAME);
-    for (mark, part) in parts {
-        let (before, after) = rest.split_once(mark).expect("the frame has every mark once, in this order");
-        page.push_str(before);
-        page.push_str(part);
-        rest = after;
+impl Template {
+    /// The page of some data, which may ask the program that served it for news.
+    pub(super) fn filled(&self, json: &str, asks: bool) -> String {
+        let connect = if asks { "'self'" } else { "'none'" };
+        let policy = format!(
+            "default-src 'none'; img-src data:; style-src {}; script-src {}; connect-src {connect}; base-uri 'none'; form-action 'none'",
+            hash(self.style),
+            hash(self.script)
+        );
+        let parts = [
+            ("<!-- policy -->", policy.as_str()),
+            ("<!-- style -->", self.style),
+            ("<!-- data -->", &harmless(json)),
+            ("<!-- script -->", self.script),
+        ];
+        let (mut page, mut rest) = (String::new(), self.frame);
+        for (mark, part) in parts {
+            let (before, after) =
+                rest.split_once(mark).expect("the frame has every mark once, in this order");
+            page.push_str(before);
+            page.push_str(part);
+            rest = after;
+        }
+        page + rest
     }
-    page + rest
 }
 
 /// The same JSON without any letter that could end the element it stands in, or begin another. These letters occur in texts only.

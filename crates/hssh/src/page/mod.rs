@@ -1,4 +1,4 @@
-//! A page: one self-contained HTML file that shows an answer, to look at and to click through without a network.
+//! A page: one self-contained HTML file that shows an answer or a grid map, to look at and to click through without a network.
 
 mod data;
 mod drawing;
@@ -6,6 +6,7 @@ mod error;
 mod history;
 mod html;
 mod image;
+mod plan;
 mod seen;
 mod tree;
 mod way;
@@ -15,6 +16,7 @@ pub use data::{
     PageTree, PageVisit,
 };
 pub use error::PageError;
+pub use plan::PlanData;
 
 use std::sync::Arc;
 
@@ -109,7 +111,7 @@ impl PageData {
     /// The page. Equal data give equal pages.
     #[must_use]
     pub fn to_html(&self) -> String {
-        html::page(self)
+        html::ANSWER.filled(&self.to_json(), self.live.is_some())
     }
 }
 

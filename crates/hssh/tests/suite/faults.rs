@@ -79,7 +79,13 @@ fn graphs() -> Vec<Fault> {
     let whole = "33 poses, 37 edges, of which 5 close loops";
     let unknown = laps.clone() + "EDGE_SE2_WHATEVER 0 5 1 0 0 1 0 0 1 0 1\n";
     let offset = laps.clone() + "EDGE_SE2_OFFSET 0 5 0 0 1 0 0 1 0 0 1 0 1\n";
+    let percent = format!("% made by some program\n{laps}");
+    let turned = "EDGE_SE2 0 1 1 0 90 1 0 0 1 0 1\nEDGE_SE2 1 0 1 0 -90 1 0 0 1 0 1\n";
+    let says_nothing = "EDGE_SE2 0 1 1 0 0 0 0 0 0 0 0\nEDGE_SE2 1 2 1 0 0 0 0 0 0 0 0\n";
     vec![
+        fault("a comment behind a percent sign", "graph FILE", percent, 0, whole),
+        fault("turns in degrees", "graph FILE", turned, 0, "DOUBTFUL: line 1 turns by 90 rad"),
+        fault("no information at all", "graph FILE", says_nothing, 0, "DOUBTFUL: every measurement"),
         fault("mark before TORO", "graph FILE", format!("\u{feff}{toro}"), 0, whole),
         fault("CR line ends", "graph FILE", laps.replace('\n', "\r\n"), 0, whole),
         fault("records in lower case", "graph FILE", laps.to_lowercase(), 0, whole),
@@ -145,6 +151,20 @@ fn logs(ring: &str) -> Vec<Fault> {
     let late = format!("{unlimited}{limit} nohost 0\n");
     let half = &ring.as_bytes()[..ring.len() / 3];
     vec![
+        fault(
+            "a second laser that is not there",
+            "map FILE --scan FLASER,RLASER",
+            ring,
+            2,
+            "the log has no RLASER messages; it has FLASER",
+        ),
+        fault(
+            "a laser by a topic's name",
+            "map FILE --scan /front",
+            ring,
+            2,
+            "go by the names of their messages: FLASER, ROBOTLASER1, RAWLASER1, RLASER, ROBOTLASER2",
+        ),
         fault("messages in lower case", map, lower, 0, right),
         fault("no limit of range", map, unlimited, 0, right),
         fault("the limit at the end", map, late, 0, right),
@@ -280,6 +300,13 @@ fn explorations() -> Vec<Fault> {
         fault("a turn beyond all angles", map, square("1e308", usual), 2, "as no robot measures"),
         fault("square degrees", map, square("0", "0.04, 0.04, 4"), 0, "square degrees"),
         fault("square decimetres", map, square("0", "400, 400, 0.001"), 0, "square metres"),
+        fault(
+            "millimetres",
+            map,
+            square("0.01", "4e4, 4e4, 0.001").replace("8,", "8000,").replace("8)", "8000)"),
+            0,
+            "DOUBTFUL: travel 1: half of the travels are longer than 8000 m",
+        ),
         fault("a variance below none", map, square("0", "-0.04, 0.04, 0.001"), 2, "not positive definite"),
     ]
 }
@@ -292,7 +319,32 @@ fn maps() -> Vec<Fault> {
             floor.display()
         )
     };
+    let saved = yaml("0.1", "negate: 0\n");
+    let utf16: Vec<u8> = format!("\u{feff}{saved}").encode_utf16().flat_map(u16::to_le_bytes).collect();
+    let flat = saved.replace("[0, 0, 0]", "[0, 0]");
     vec![
+        fault("a description in UTF-16", "stars FILE", utf16, 0, "2 regions, 5 places"),
+        fault(
+            "an origin of two numbers",
+            "stars FILE",
+            flat,
+            2,
+            "the number of numbers is 2, but `origin` has three",
+        ),
+        fault(
+            "no space behind colons",
+            "stars FILE",
+            saved.replace(": ", ":"),
+            2,
+            "with a space behind the colon",
+        ),
+        fault(
+            "a mode of no name",
+            "stars FILE",
+            saved + "mode: Trinery\n",
+            2,
+            "the `mode` is `Trinery`, expected one of trinary",
+        ),
         fault("negate in a word", "stars FILE", yaml("0.1", "negate: false\n"), 0, "2 regions, 5 places"),
         fault("negate in capitals", "stars FILE", yaml("0.1", "negate: False\n"), 0, "2 regions, 5 places"),
         fault("negate of two", "stars FILE", yaml("0.1", "negate: 2\n"), 2, "negate"),

@@ -58,6 +58,11 @@ function fold(id, title, make) {
   return node;
 }
 
+// The sign and the word say it without any color.
+function banner(tone, sign, word, sentence) {
+  return element("p", { class: `banner ${tone}` }, element("span", { class: "sign", "aria-hidden": "true" }, sign), element("strong", {}, word), " ", element("span", {}, sentence));
+}
+
 // What is printed is printed as a whole.
 window.addEventListener("beforeprint", () => {
   for (const node of document.querySelectorAll("details")) {

@@ -37,8 +37,3 @@ function misreadLine({ sentence, visit: told, place }) {
   return element("li", {}, capital(sentence), ". ", chosen && button("show", () => choose(chosen), { class: "inline", "aria-label": `Show: ${sentence}` }));
 }
 
-// The sign and the word say it without any color.
-function banner(tone, sign, word, sentence) {
-  return element("p", { class: `banner ${tone}` }, element("span", { class: "sign", "aria-hidden": "true" }, sign), element("strong", {}, word), " ", element("span", {}, sentence));
-}
-

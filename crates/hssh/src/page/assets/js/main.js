@@ -42,6 +42,6 @@ function choose(chosen) {
 }
 
 startTheme();
-watchPointer(byId("map-picture"));
+watchPointer(byId("map-picture"), () => state.view.unit, () => drawMapCard(state.view));
 renderData(JSON.parse(byId("data").textContent));
 window.hssh = { render: renderData, state, replay, wordsOf };

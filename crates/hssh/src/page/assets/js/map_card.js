@@ -1,18 +1,12 @@
 // The map with what belongs to it: choosing among the ranking, layers, zoom, keys.
 
-const ARROWS = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1] };
-
 function drawMapCard(view) {
   const picture = byId("map-picture");
   byId("map-card").classList.toggle("empty", !view);
   byId("map-caption").textContent = view ? view.title : "There is no map to draw.";
   refill(byId("map-flip"), flipping());
   refill(byId("map-layers"), view ? switches(view) : null);
-  refill(byId("map-zoom"), view ? [
-    button("+", () => zoom(picture, view.unit, 1 / 1.4), { "aria-label": "Zoom in" }),
-    button("−", () => zoom(picture, view.unit, 1.4), { "aria-label": "Zoom out" }),
-    button("◻", () => zoom(picture, view.unit, null), { "aria-label": "Show everything" }),
-  ] : null);
+  refill(byId("map-zoom"), view ? zoomButtons(picture, view.unit) : null);
   const hadFocus = picture.contains(document.activeElement);
   drawMap(picture, view, state.data, choose);
   markMap(picture, chosenIn(view, state.chosen));
@@ -55,40 +49,10 @@ function legend(view) {
 }
 
 function onKey(event, view, picture) {
-  if (event.ctrlKey || event.metaKey || event.altKey) return;
   const number = event.target.closest?.("[data-place]")?.dataset.place;
-  if (ARROWS[event.key]) {
-    event.preventDefault();
-    const next = number === undefined ? 0 : neighborTowards(view, Number(number), ARROWS[event.key]);
-    if (next !== null) choose({ kind: "place", visit: view.model.places[next].first });
-    picture.querySelector(".place.chosen")?.focus();
-  } else if (event.key === "+" || event.key === "=") zoom(picture, view.unit, 1 / 1.4);
-  else if (event.key === "-") zoom(picture, view.unit, 1.4);
-  else if (event.key === "0") zoom(picture, view.unit, null);
-  else if (event.key === "Escape") choose(null);
-}
-
-// The picture is dragged with the pointer, and zoomed by the wheel while a control key is down.
-function watchPointer(picture) {
-  let last = null;
-  picture.addEventListener("pointerdown", event => {
-    if (event.isPrimary && !event.target.closest("[role=button]")) last = event;
+  goByKey(event, picture, view.unit, {
+    points: view.places.slice(0, view.model.places.length), at: number === undefined ? null : Number(number),
+    to: next => choose({ kind: "place", visit: view.model.places[next].first }), none: () => choose(null),
   });
-  window.addEventListener("pointermove", event => {
-    if (!last || !camera.box) return;
-    const pixel = camera.box.width / picture.clientWidth;
-    camera.box.x -= (event.clientX - last.clientX) * pixel;
-    camera.box.y -= (event.clientY - last.clientY) * pixel;
-    last = event;
-    camera.isOwn = true;
-    picture.setAttribute("viewBox", `${camera.box.x} ${camera.box.y} ${camera.box.width} ${camera.box.height}`);
-  });
-  for (const end of ["pointerup", "pointercancel"]) window.addEventListener(end, () => { last = null; });
-  picture.addEventListener("wheel", event => {
-    if (!event.ctrlKey && !event.metaKey) return;
-    event.preventDefault();
-    if (state.view) zoom(picture, state.view.unit, event.deltaY > 0 ? 1.15 : 1 / 1.15);
-  }, { passive: false });
-  window.addEventListener("resize", () => { camera.isOwn = false; drawMapCard(state.view); });
 }
 

@@ -1,21 +1,15 @@
 // The map as a picture: the grid below, the robot's way, links, places with their ends, and the robot.
 
-// Which layers are shown, and which part of the plane: x, y and sizes in metres, y downwards.
+// Which layers are shown.
 const layers = { grid: true, way: true, names: false, ellipses: true };
-// The reader's own part stays until another map is drawn.
-const camera = { box: null, whole: null, of: null, isOwn: false };
-
-// Pixels of a place, and how large one is drawn where links are long enough.
+// Pixels of a place.
 const PLACE = 9;
-const ROOMY = 44;
 
 // Draws the view, with marks for what its last travel brought.
 function drawMap(picture, view, data, choose) {
   if (!view) return refill(picture);
   const frame = boundsOf(view, data);
-  const id = `${view.map.rank} ${view.map.grid} ${view.map.measured}`;
-  if (!camera.isOwn || camera.of !== id) Object.assign(camera, { box: fitted(frame, picture), of: id, isOwn: false });
-  camera.whole = frame;
+  look(picture, frame, `${view.map.rank} ${view.map.grid} ${view.map.measured}`);
   const way = layers.way && view.map.way?.length && view.kind !== "belief" ? wayOf(view, data) : null;
   refill(picture,
     layers.grid && view.map.grid !== undefined ? imageIn(data.grids[view.map.grid], view.kind === "belief" ? "grid faint" : "grid") : null,
@@ -40,34 +34,6 @@ function boundsOf({ map, places, model, unit }, data) {
   }
   const margin = image ? 0.5 : 0.8 * unit;
   return { x: left - margin, y: -high - margin, width: right - left + 2 * margin, height: high - low + 2 * margin };
-}
-
-// The same rectangle in the shape of the picture.
-function fitted({ x, y, width, height }, picture) {
-  const shape = (picture.clientWidth || 800) / (picture.clientHeight || 500);
-  const [wide, tall] = width / height > shape ? [width, width / shape] : [height * shape, height];
-  return { x: x + (width - wide) / 2, y: y + (height - tall) / 2, width: wide, height: tall };
-}
-
-// Sets what part is seen; symbols keep their size on the screen as far as there is room for them.
-function zoomed(picture, unit) {
-  const { x, y, width, height } = camera.box;
-  picture.setAttribute("viewBox", `${x} ${y} ${width} ${height}`);
-  const pixel = width / (picture.clientWidth || 800);
-  const room = Math.min(1.3, Math.max(0.3, unit / pixel / ROOMY));
-  picture.classList.toggle("crowded", room < 0.6);
-  for (const node of picture.querySelectorAll("[data-at]")) node.setAttribute("transform", `translate(${node.dataset.at}) scale(${pixel * room})`);
-}
-
-// Zooms by a factor, or shows everything.
-function zoom(picture, unit, factor) {
-  camera.isOwn = factor !== null;
-  if (!factor) camera.box = fitted(camera.whole, picture);
-  else {
-    const { x, y, width, height } = camera.box;
-    camera.box = { x: x + (width * (1 - factor)) / 2, y: y + (height * (1 - factor)) / 2, width: width * factor, height: height * factor };
-  }
-  zoomed(picture, unit);
 }
 
 // The robot's way up to the last visit of the view.
@@ -101,8 +67,6 @@ function linkOf(view, data, link, choose) {
   return svg("g", { class: names, role: "button", tabindex: -1, "aria-label": label, "data-way": link.number, click, keydown: event => isPress(event) && click() },
     svg("path", { d, class: "reach" }), svg("path", { d, class: "line" }), svg("title", {}, label));
 }
-
-const isPress = event => (event.key === "Enter" || event.key === " ") && (event.preventDefault(), true);
 
 // Colors come again dashed when they are used up; a path with a single place is gray.
 function pathClass(view, number) {
@@ -167,20 +131,5 @@ function markRobot(picture, now) {
   picture.append(svg("g", { class: "robot-now", "aria-hidden": "true" },
     (now.hits ?? []).map(([hx, hy]) => svg("circle", { cx: hx, cy: -hy, r: 0.06, class: "hit" })),
     svg("path", { d: "M 12 0 L -7 8 L -3 0 L -7 -8 Z", transform: `translate(${x} ${-y}) rotate(${(-theta * 180) / Math.PI}) scale(${scale})` })));
-}
-
-// The place next to one in a direction: the nearest within a right angle.
-function neighborTowards(view, number, [dx, dy]) {
-  const here = view.places[number];
-  let best = null;
-  view.model.places.forEach((_, other) => {
-    const [x, y] = [view.places[other].x - here.x, view.places[other].y - here.y];
-    const ahead = x * dx + y * dy;
-    const aside = Math.abs(x * dy - y * dx);
-    if (other === number || ahead <= 0 || aside > ahead) return;
-    const cost = ahead + 2 * aside;
-    if (!best || cost < best.cost) best = { other, cost };
-  });
-  return best?.other ?? null;
 }
 
