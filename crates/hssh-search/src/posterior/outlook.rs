@@ -324,7 +324,7 @@ mod tests {
     /// Whatever is passed over, the counts are those of the definition with all pairs of visits.
     #[test]
     fn counts_are_those_of_all_pairs() {
-        for (columns, travels, errors) in [(4, 100, 1.0), (4, 100, 6.0), (70, 150, 1.0), (150, 140, 8.0)] {
+        for (columns, travels, errors) in [(4, 60, 1.0), (4, 60, 6.0), (30, 75, 1.0), (60, 90, 8.0)] {
             let experience = Experience::from(&laps(columns, travels, errors));
             let mut measured = Measured::default();
             measured.observe(&experience).unwrap();
