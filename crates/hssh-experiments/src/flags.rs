@@ -21,7 +21,7 @@ xflags::xflags! {
             optional --threads count: usize
             /// With `chapter-4` and `scale`: seeds of each row; 50 and 5 if not given.
             optional --seeds count: usize
-            /// With `scale`: seconds that one search may take; 60 if not given.
+            /// With `scale` and `horizon`: seconds that one search may take; 60 if not given.
             optional --seconds count: u64
             /// With `chapter-4` and `scale`: the file to draw the plot into.
             optional --svg file: PathBuf
@@ -38,7 +38,7 @@ xflags::xflags! {
             /// Print JSON instead of tables.
             optional --json
         }
-        /// Times the mapper: `speed`, `faces` or `proof`, all three if not given; `long` explorations; `kills` and the checkpoints that outlive them; `memory` beside its limit; `processes` that search together; the `size` of trees that cannot be counted; or pose graphs: `graphs`, `closures`, `wrong-closures`.
+        /// Times the mapper: `speed`, `faces` or `proof`, all three if not given; `long` explorations; `kills` and the checkpoints that outlive them; `memory` beside its limit; `processes` that search together; the `size` of trees that cannot be counted; walks through `streets`; or pose graphs: `graphs`, `closures`, `wrong-closures`.
         cmd bench {
             /// Which one.
             optional name: String
@@ -48,8 +48,10 @@ xflags::xflags! {
             optional --runs count: usize
             /// Seconds that one search with proof may take; 60 if not given.
             optional --seconds count: u64
+            /// With `streets`: the file to draw the plot into.
+            optional --svg file: PathBuf
         }
-        /// Runs one search of `bench speed` or `bench long` and prints its cost as JSON; `bench` starts this itself.
+        /// Runs one search of `bench speed`, `bench long` or `bench streets` and prints its cost as JSON; `bench` starts this itself.
         cmd measure {
             /// Which search.
             required name: String

@@ -85,7 +85,8 @@ pub use mapper::Mapper;
 pub use order::{Goal, Order, Proving};
 pub use placement::{Placement, PlacementError, place_by_odometry};
 pub use posterior::{
-    Appearance, Corridor, Cost, LINEAR_TRUST, MapPrior, Metrical, ModelError, PlacePrior, PosteriorModel,
+    Appearance, Corridor, Cost, Horizon, LINEAR_TRUST, MapPrior, Metrical, ModelError, PlacePrior,
+    PosteriorModel,
 };
 pub use reading::{Corrected, Correction, Passage, ReadAnswer, ReadMap, Reader};
 pub use report::{FinalCounts, LevelCounts, Levels, Probable, Proof, RankedMap, Report, Score};

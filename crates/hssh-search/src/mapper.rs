@@ -23,7 +23,7 @@ use crate::limits::{Limits, StopReason, Watch};
 use crate::measured::MeasuredTravel;
 use crate::order::Order;
 use crate::pack::Pack;
-use crate::posterior::{ByPosterior, LINEAR_TRUST, Metrical, PosteriorModel};
+use crate::posterior::{ByPosterior, Horizon, LINEAR_TRUST, Metrical, PosteriorModel, horizons};
 use crate::preference::ByPreference;
 use crate::report::{FinalCounts, Proof, RankedMap, Report};
 use crate::tree::{NodeId, Tree};
@@ -400,6 +400,15 @@ impl Mapper {
     pub fn pose_graph(&self, map: &RankedMap) -> Option<PoseGraph> {
         let Search::Posterior(engine) = &self.search else { return None };
         engine.appraiser.graph(&self.visits(map.node), &map.probable.as_ref()?.poses)
+    }
+
+    /// How far the bound sees along the branch of a map, the first place alone first: where a proof is stuck. `None` if nothing is
+    /// measured, or a layout cannot be computed.
+    #[must_use]
+    pub fn horizons(&self, map: &RankedMap) -> Option<Vec<Horizon>> {
+        let Search::Posterior(engine) = &self.search else { return None };
+        let watch = Watch::without_limits();
+        horizons(&engine.appraiser, &engine.tree, map.node, self.context(&watch)).ok()
     }
 
     /// What the proof rests on, as text that can be checked by itself: the branches left open with their bounds, the maps found, the

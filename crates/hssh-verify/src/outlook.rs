@@ -11,6 +11,9 @@ use crate::route::Route;
 
 /// Of the bend that the linear model promises, the share that is counted.
 const COUNTED: f64 = 0.1;
+/// Of the bend of a loop of at most so many travels, laid out by itself, the share that is counted if it is more than that.
+const LOOP_COUNTED: f64 = 0.9;
+const LONGEST_LOOP: usize = 100;
 /// No promise is counted where the turn is known to no better than this, in radians.
 const VAGUE_TURN: f64 = 0.3;
 
@@ -59,7 +62,7 @@ impl Outlook {
         outlook
     }
 
-    /// The share of the promise that counts, or what the loop truly bends by if that is less.
+    /// The share of the promise that counts, or that of the loop's bend if it is short and that is more; what the loop truly bends by if that is less.
     fn price(&mut self, way: &Way, turn: f64) -> f64 {
         let promised = way.counted_promise(turn);
         if promised <= 0.0 {
@@ -67,7 +70,8 @@ impl Outlook {
         }
         let kept = way.least_bend(turn);
         self.lowered += usize::from(kept < promised);
-        promised.min(kept)
+        let of_loop = if way.travels.len() <= LONGEST_LOOP { LOOP_COUNTED * kept } else { 0.0 };
+        promised.max(of_loop).min(kept)
     }
 
     /// The thresholds with the one before each.

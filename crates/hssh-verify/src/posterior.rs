@@ -214,8 +214,10 @@ impl<'a> Posterior<'a> {
         let explained = self.branch.len() - 1;
         let ahead = &self.prices[explained..];
         let discount: f64 = ahead.iter().map(|price| price.min(0.0)).sum();
-        let cheapest = ahead.iter().copied().fold(f64::INFINITY, f64::min);
-        let per_place = if ahead.is_empty() { 0.0 } else { cheapest.max(0.0) };
+        // By number of new places: what they cost at least.
+        let mut cheapest: Vec<f64> = ahead.iter().map(|price| price.max(0.0)).collect();
+        cheapest.sort_by(f64::total_cmp);
+        let paid = |new: usize| cheapest[..new].iter().sum::<f64>();
         let simple = match self.rules.prior {
             Prior::Simplicity { c1, c2, c3 } => {
                 Some((simplicity(stepper, [c1, c2, c3], self.route.travels() - explained), c3))
@@ -227,9 +229,9 @@ impl<'a> Posterior<'a> {
         let intervals: Vec<(usize, f64, f64)> = self.outlook.intervals().collect();
         let future =
             intervals.into_iter().filter(|(.., threshold)| *threshold >= bent).map(|(k, before, _)| {
-                let new = self.outlook.new_places(k, explained) as f64;
-                let complexity = simple.map_or(0.0, |(least, c3)| (least + c3 * new).ln());
-                before.max(bent) + per_place * new + complexity
+                let new = self.outlook.new_places(k, explained);
+                let complexity = simple.map_or(0.0, |(least, c3)| (least + c3 * new as f64).ln());
+                before.max(bent) + paid(new) + complexity
             });
         spent + discount + future.fold(f64::INFINITY, f64::min)
     }

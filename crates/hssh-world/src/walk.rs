@@ -1,6 +1,6 @@
 //! Routes drawn at random: a walk, and a walk that leaves no link untravelled.
 
-use std::collections::{BTreeSet, VecDeque};
+use std::collections::{BTreeMap, BTreeSet, VecDeque};
 
 use rand::seq::IndexedRandom;
 use rand::{RngExt, SeedableRng};
@@ -67,19 +67,22 @@ pub fn cover(world: &World, seed: u64) -> Result<Route, RouteError> {
 
 /// The fewest gateways to take one after another, the last of them of an untravelled link.
 fn way_to_untravelled(world: &World, from: PlaceId, travelled: &BTreeSet<usize>) -> Option<Vec<WorldOlp>> {
-    let mut reached_by: Vec<Option<WorldOlp>> = vec![None; world.places().len()];
+    // Most ways are short, however large the world.
+    let mut reached_by: BTreeMap<PlaceId, WorldOlp> = BTreeMap::new();
     let mut frontier = VecDeque::from([from]);
     while let Some(here) = frontier.pop_front() {
         for exit in world.gateways_of(here) {
             if world.link_index(exit).is_some_and(|link| !travelled.contains(&link)) {
-                let back = std::iter::successors(Some(exit), |gateway| reached_by[gateway.place.index()]);
+                let back = std::iter::successors(Some(exit), |gateway: &WorldOlp| {
+                    reached_by.get(&gateway.place).copied()
+                });
                 let mut way: Vec<WorldOlp> = back.collect();
                 way.reverse();
                 return Some(way);
             }
             let Some(far) = world.neighbor(exit) else { continue };
-            if far.place != from && reached_by[far.place.index()].is_none() {
-                reached_by[far.place.index()] = Some(exit);
+            if far.place != from && !reached_by.contains_key(&far.place) {
+                reached_by.insert(far.place, exit);
                 frontier.push_back(far.place);
             }
         }

@@ -12,7 +12,9 @@ mod processes;
 mod proof;
 mod size;
 pub(crate) mod speed;
+mod streets;
 pub(crate) mod usage;
+mod walked;
 mod wrong_closures;
 
 use std::error::Error;
@@ -28,7 +30,10 @@ pub(crate) fn run(flags: &flags::Bench) -> Result<(), Box<dyn Error>> {
     let data = std::env::var_os("HSSH_DATA").map(PathBuf::from);
     match flags.name.as_deref() {
         Some("speed") => speed::run(runs),
-        Some("faces") => faces::run(runs),
+        Some("faces") => {
+            faces::run(runs)?;
+            walked::run(data.as_deref(), runs)
+        }
         Some("proof") => proof::run(limit),
         Some("graphs") => graphs::run(flags.data.as_deref(), runs),
         Some("closures") => closures::run(runs),
@@ -38,6 +43,7 @@ pub(crate) fn run(flags: &flags::Bench) -> Result<(), Box<dyn Error>> {
         Some("memory") => memory::run(),
         Some("processes") => processes::run(),
         Some("size") => size::run(),
+        Some("streets") => streets::run(data.as_deref(), limit, flags.svg.as_deref()),
         Some("long") => long::run(limit),
         Some("online") => online::run(flags.data.as_deref().or(data.as_deref())),
         None => {
@@ -46,7 +52,7 @@ pub(crate) fn run(flags: &flags::Bench) -> Result<(), Box<dyn Error>> {
             proof::run(limit)
         }
         Some(other) => {
-            let names = "speed, faces, proof, graphs, closures, wrong-closures, online, certificates, long, kills, memory, processes, size";
+            let names = "speed, faces, proof, graphs, closures, wrong-closures, online, certificates, long, kills, memory, processes, size, streets";
             Err(format!("there is no benchmark `{other}`; there are: {names}").into())
         }
     }
@@ -54,7 +60,12 @@ pub(crate) fn run(flags: &flags::Bench) -> Result<(), Box<dyn Error>> {
 
 /// `cargo xtask measure`: what a benchmark starts as a process of its own.
 pub(crate) fn measure(flags: &flags::Measure) -> Result<(), Box<dyn Error>> {
-    if flags.name.starts_with("long/") { long::measure(flags) } else { speed::measure(flags) }
+    let data = std::env::var_os("HSSH_DATA").map(PathBuf::from);
+    match flags.name.split('/').next() {
+        Some("long") => long::measure(flags),
+        Some("streets") => streets::measure(flags, data.as_deref()),
+        _ => speed::measure(flags),
+    }
 }
 
 /// The program `hssh`, which stands beside this one.

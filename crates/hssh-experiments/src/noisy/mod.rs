@@ -1,6 +1,7 @@
 //! Experiments with measured travels: how often the true map is found, at which noise and at what cost (chapter 4).
 
 mod chapter4;
+mod horizon;
 mod plot;
 mod scale;
 mod trial;
@@ -13,7 +14,8 @@ pub(crate) use plot::{Chart, Curve, draw};
 pub(crate) use trial::on_threads;
 
 /// The experiments of this kind, and what runs them.
-const EXPERIMENTS: [(&str, Run); 2] = [("chapter-4", chapter4::run), ("scale", scale::run)];
+const EXPERIMENTS: [(&str, Run); 3] =
+    [("chapter-4", chapter4::run), ("scale", scale::run), ("horizon", horizon::run)];
 
 type Run = fn(&flags::Experiment) -> Result<(), Box<dyn Error>>;
 

@@ -18,7 +18,8 @@ const SEEDS: usize = 5;
 /// The side of a block, and the mean distance in a random world: m.
 const SPACING: f64 = 8.0;
 /// Standard deviations a travel: 0.1 m, 0.01 rad.
-const NOISE: PolarNoise = PolarNoise { distance: 0.1, distance_share: 0.0, bearing: 0.01, rotation: 0.01 };
+pub(super) const NOISE: PolarNoise =
+    PolarNoise { distance: 0.1, distance_share: 0.0, bearing: 0.01, rotation: 0.01 };
 
 /// What one size came to.
 #[derive(Serialize)]
@@ -74,7 +75,8 @@ pub(super) fn run(flags: &flags::Experiment) -> Result<(), Box<dyn Error>> {
     Ok(())
 }
 
-fn course(kind: &str, size: u32, seed: u64) -> Result<Course, Box<dyn Error>> {
+/// A world of that kind and size, and the way through it.
+pub(super) fn course(kind: &str, size: u32, seed: u64) -> Result<Course, Box<dyn Error>> {
     if kind == "snake" {
         let world = grid(size, size, SPACING)?;
         let route = world.route_through(&snake(size, size))?;

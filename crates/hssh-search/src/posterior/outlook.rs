@@ -5,14 +5,17 @@
 //! another and from all visits before must be at as many new places. Either the layout is bent by more than
 //! b, or the new places are paid for.
 
+use hssh_metrics::wrap_angle;
 use hssh_topology::{Olp, StarCatalog, StarId};
 
 use crate::experience::Experience;
 use crate::limits::{StopReason, Watch};
-use crate::measured::Measured;
+use crate::measured::{Measured, MeasuredTravel};
 use crate::posterior::course::Course;
 use crate::posterior::needs::{Need, Needs};
+use crate::posterior::noose::{RELIED_ON, least_bend};
 use crate::posterior::vicinity::Vicinity;
+use crate::posterior::way::Way;
 
 /// The least share of a linear estimate of χ² that is taken to be its true value at least. The linear
 /// estimate of a rise of χ² holds for small turns; a layout that can turn at will may get away with less.
@@ -30,6 +33,10 @@ pub(crate) fn trust(heading_variance: f64) -> f64 {
 const FIRST_THRESHOLD: f64 = 0.5;
 const THRESHOLD_FACTOR: f64 = 1.25;
 const THRESHOLDS: usize = 40;
+
+/// Loops of up to so many travels are laid out by themselves. Of longer ones the linear estimate has to do: they are many, and odometry tells
+/// little of them.
+const LONGEST_LOOP: usize = 100;
 
 /// Which visits can have been to one place.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -196,15 +203,13 @@ impl Outlook {
 
     /// How much χ²/2 rises at least if a visit is to the place of an earlier one.
     fn price(&self, visit: usize, earlier: usize, experience: &Experience, measured: &Measured) -> f64 {
-        let way = self.course.way(earlier, visit);
-        if !way.is_sound() {
-            return 0.0;
+        let (way, travels) = (self.course.way(earlier, visit), &measured.travels[earlier..visit]);
+        match self.sameness {
+            Sameness::Isomorphic => {
+                price_of_loop(&way, travels, || turns(visit, earlier, experience, measured))
+            }
+            Sameness::AnyReading => told(&way, way.half_chi2_of_position()),
         }
-        let half_chi2 = match self.sameness {
-            Sameness::Isomorphic => way.least_half_chi2(turns(visit, earlier, experience, measured)),
-            Sameness::AnyReading => way.half_chi2_of_position(),
-        };
-        trust(way.turn_variance) * half_chi2
     }
 
     /// The least of χ²/2 plus what new places cost, over all maps that may come of one that explains that
@@ -223,6 +228,35 @@ impl Outlook {
         }
         least
     }
+}
+
+/// How much χ²/2 rises at least if a way leads back to where it began, into a frame turned by any of these angles: the single loop is part of every
+/// map in which both visits are to one place, so that no map bends by less than the loop alone. What the linear estimate promises is
+/// relied on where that is more, or the loop is a long one.
+fn price_of_loop<I: Iterator<Item = f64>>(
+    way: &Way,
+    travels: &[MeasuredTravel],
+    turns: impl Fn() -> I,
+) -> f64 {
+    let half_chi2 = way.least_half_chi2(turns());
+    let promised = told(way, half_chi2);
+    if promised == 0.0 || half_chi2 <= FIRST_THRESHOLD || travels.len() > LONGEST_LOOP {
+        return promised;
+    }
+    let bend = |least: f64, turn: f64| {
+        // Headings add up, so that a loop bends at least by what turns it.
+        let off = wrap_angle(way.mean.theta - turn);
+        if 0.5 * off * off / way.turn_variance >= least {
+            return least;
+        }
+        least_bend(travels, turn).map_or(0.0, |bend| RELIED_ON * bend).min(least)
+    };
+    turns().fold(f64::INFINITY, bend).max(promised)
+}
+
+/// What can be relied on of a linear estimate of χ²/2 for a way.
+fn told(way: &Way, half_chi2: f64) -> f64 {
+    if way.is_sound() { trust(way.turn_variance) * half_chi2 } else { 0.0 }
 }
 
 /// By what angles the frame of a visit may be turned against that of an earlier one at the same place.
@@ -252,7 +286,6 @@ mod tests {
 
     use super::*;
     use crate::limits::Limits;
-    use crate::posterior::way::Way;
 
     /// Round and round the two rows of a grid, with so many standard deviations of what a good robot errs by.
     fn laps(columns: u32, travels: usize, errors: f64) -> Exploration {
@@ -277,13 +310,12 @@ mod tests {
                 let longer = way.map_or(step, |way| way.then(&step));
                 way = Some(longer);
                 let turns: Vec<f64> = turns(later, earlier, experience, measured).collect();
-                let half_chi2 = match sameness {
+                let travels = &measured.travels[earlier..later];
+                prices.push(match sameness {
                     Sameness::Isomorphic if turns.is_empty() => None,
-                    Sameness::Isomorphic => Some(longer.least_half_chi2(turns.into_iter())),
-                    Sameness::AnyReading => Some(longer.half_chi2_of_position()),
-                };
-                let trusted = if longer.is_sound() { trust(longer.turn_variance) } else { 0.0 };
-                prices.push(half_chi2.map(|half_chi2| trusted * half_chi2));
+                    Sameness::Isomorphic => Some(price_of_loop(&longer, travels, || turns.iter().copied())),
+                    Sameness::AnyReading => Some(told(&longer, longer.half_chi2_of_position())),
+                });
             }
         }
         prices
@@ -292,7 +324,7 @@ mod tests {
     /// Whatever is passed over, the counts are those of the definition with all pairs of visits.
     #[test]
     fn counts_are_those_of_all_pairs() {
-        for (columns, travels, errors) in [(4, 100, 1.0), (4, 100, 6.0), (70, 150, 1.0), (150, 140, 8.0)] {
+        for (columns, travels, errors) in [(4, 60, 1.0), (4, 60, 6.0), (30, 75, 1.0), (60, 90, 8.0)] {
             let experience = Experience::from(&laps(columns, travels, errors));
             let mut measured = Measured::default();
             measured.observe(&experience).unwrap();

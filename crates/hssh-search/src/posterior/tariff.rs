@@ -11,6 +11,7 @@ use crate::measured::Measured;
 use crate::posterior::cost::Cost;
 use crate::posterior::model::{Corridor, MapPrior, Metrical, PlacePrior, PosteriorModel};
 use crate::posterior::outlook::{Outlook, Sameness};
+use crate::posterior::prices::Prices;
 
 /// Factors are multiplied up to this before the logarithm is taken.
 const MOST_FACTORS: f64 = 1e290;
@@ -24,8 +25,8 @@ pub(crate) struct Tariff {
     corridor: Option<Corridor>,
     /// By travel: what it costs if it leads to a new place.
     new_place: Vec<f64>,
-    /// By number of travels explained: the least price of a new place among those left, at least 0.
-    least_new_place: Vec<f64>,
+    /// What new places cost at least among the travels left.
+    prices: Prices,
     /// By number of travels explained: the sum of the negative prices among those left.
     discount: Vec<f64>,
     /// By travel.
@@ -50,7 +51,7 @@ impl Tariff {
             outlook: Outlook::new(model.metrical != Metrical::Ignored, sameness),
             corridor: None,
             new_place: Vec::new(),
-            least_new_place: vec![0.0],
+            prices: Prices::new(&[]),
             discount: vec![0.0],
             branching: Vec::new(),
             seen: BTreeMap::new(),
@@ -102,10 +103,9 @@ impl Tariff {
     /// Sums over the travels that are left, by how many are explained.
     fn look_ahead(&mut self) {
         let travels = self.new_place.len();
-        self.least_new_place = vec![f64::MAX; travels + 1];
+        self.prices = Prices::new(&self.new_place);
         self.discount = vec![0.0; travels + 1];
         for (travel, &price) in self.new_place.iter().enumerate().rev() {
-            self.least_new_place[travel] = self.least_new_place[travel + 1].min(price.max(0.0));
             self.discount[travel] = self.discount[travel + 1] + price.min(0.0);
         }
     }
@@ -169,10 +169,9 @@ impl Tariff {
             }
             _ => None,
         };
-        let per_place = if self.is_evidence() { self.least_new_place[explained] } else { 0.0 };
         let to_come = |places: u32| {
             let complexity = least.map_or(0.0, |(least, c3)| (least + c3 * f64::from(places)).ln());
-            let paid = if places == 0 { 0.0 } else { per_place * f64::from(places) };
+            let paid = if self.is_evidence() { self.prices.sum(explained, places) } else { 0.0 };
             paid + complexity
         };
         let rest = cost.total() - cost.bend - cost.complexity;
