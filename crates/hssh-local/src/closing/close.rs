@@ -235,12 +235,17 @@ impl<'a> Closing<'a> {
             }
         }
         let good: Vec<Match> = found.iter().filter(|found| is_good(found)).copied().collect();
-        let unambiguous = self.unambiguous(&good);
+        let firm = self.unambiguous(&good).into_iter().map(|found| (found, true));
+        let sliding =
+            found.iter().filter(|found| found.is_clear && !is_good(found)).map(|found| (*found, false));
+        let told: Vec<(Match, bool)> = firm.chain(sliding).collect();
         self.alike[query] = found;
         let pose = |submap: usize| self.pose(submap);
         let travelled = |submap: usize| self.submaps[submap].travelled;
-        self.tentative[query] =
-            unambiguous.into_iter().map(|found| linked(found, &self.tentative, travelled, pose)).collect();
+        self.tentative[query] = told
+            .into_iter()
+            .map(|(found, is_firm)| linked(found, is_firm, &self.tentative, travelled, pose))
+            .collect();
         self.accept(query)
     }
 
@@ -249,7 +254,9 @@ impl<'a> Closing<'a> {
     fn candidates(&self, query: usize) -> Vec<Candidate> {
         let here = self.pose(query);
         let is_long_ago = |reference: usize| {
-            self.submaps[query].travelled - self.submaps[reference].travelled >= self.options.least_travel
+            let apart = self.submaps[query].stretch + self.submaps[reference].stretch;
+            let ago = self.submaps[query].travelled - self.submaps[reference].travelled;
+            ago >= self.options.least_travel.max(apart + self.options.stretch)
         };
         let mut candidates: Vec<Candidate> = Vec::new();
         let known = self.ways.from(query, |submap| self.pose(submap));
@@ -284,7 +291,7 @@ impl<'a> Closing<'a> {
     fn accept(&mut self, query: usize) -> Result<(), ClosingError> {
         let (pose, travelled) =
             (|submap: usize| self.pose(submap), |submap: usize| self.submaps[submap].travelled);
-        let chains = self.tentative[query].iter().map(|last| {
+        let chains = self.tentative[query].iter().filter(|last| last.is_firm).map(|last| {
             if last.found.spread <= self.options.well_known {
                 recent(&last.found, &self.tentative, travelled, pose)
             } else {
@@ -304,8 +311,8 @@ impl<'a> Closing<'a> {
     }
 
     /// Whether matches that tell the same, the last one first, are no chance: many, or strong, or where they were expected. The
-    /// less is known of where the robot is, the more that looks alike may be there, and the longer it has to look alike: each match
-    /// more rules out about as much as a doubling of the standard deviation adds.
+    /// less is known of where the robot is, the more that looks alike may be there, and the longer it has to look alike: a match
+    /// more for each two doublings of the standard deviation.
     fn is_convincing(&self, chain: &[Match]) -> bool {
         let options = self.options;
         let score = chain.iter().map(|found| found.score).sum::<f64>() / chain.len() as f64;
@@ -314,8 +321,8 @@ impl<'a> Closing<'a> {
         if spread <= options.well_known {
             return chain.len() + usize::from(is_strong) >= options.least_chain;
         }
-        let doublings = (spread / options.well_known).log2().ceil().min(MOST_DOUBLINGS);
-        chain.len() >= options.least_chain + doublings as usize
+        let doublings = (spread / options.well_known).log2().min(MOST_DOUBLINGS);
+        chain.len() >= options.least_chain + (doublings / 2.0).ceil() as usize
     }
 
     /// Adds a match to the graph, if it is not there yet, and tells how far off it is: metres, and 10 for a radian.

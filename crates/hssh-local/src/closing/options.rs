@@ -40,7 +40,7 @@ pub struct ClosingOptions {
     /// See `least_chain`.
     pub strong_score: f64,
     /// Where the robot is known up to this standard deviation, in metres, there is no room for another corridor that looks
-    /// alike; with each doubling of it one more match has to tell the same.
+    /// alike; with each two doublings of it one more match has to tell the same.
     pub well_known: f64,
     /// However good a match is, a closure is not known better than this: metres and radians, standard deviations.
     pub floor: (f64, f64),

@@ -25,6 +25,8 @@ pub(super) struct Submap {
     pub(super) keyframes: std::ops::Range<usize>,
     /// Metres travelled at the middle.
     pub(super) travelled: f64,
+    /// Metres of travel before and after the middle.
+    pub(super) stretch: f64,
     /// The middles of walls' cells, about one in 0.2 m.
     pub(super) walls: Vec<Vector2<f64>>,
     /// How well a wall fits where.
@@ -54,10 +56,9 @@ fn drawn(
     log: &LaserLog,
     keyframes: &[Keyframe],
     frame: Pose,
-    reach: f64,
-    options: &ClosingOptions,
+    (stretch, reach): (f64, f64),
 ) -> Result<OccupancyGrid, LatticeError> {
-    let side = 2.0 * (options.stretch + reach) + 2.0;
+    let side = 2.0 * (stretch + reach) + 2.0;
     let local = LocalMapOptions { side, resolution: CELL, reach, ..LocalMapOptions::default() };
     let mut map = LocalMap::new(Vector2::zeros(), local)?;
     for keyframe in keyframes {
@@ -83,18 +84,21 @@ impl Submap {
         options: &ClosingOptions,
     ) -> Result<Self, LatticeError> {
         let travelled = keyframes[middle].travelled;
-        let first = keyframes.partition_point(|other| other.travelled < travelled - options.stretch);
-        let last = keyframes.partition_point(|other| other.travelled <= travelled + options.stretch);
         let mut reach = options.reach;
-        let (grid, walls) = loop {
-            let grid = drawn(log, &keyframes[first..last], keyframes[middle].tracked, reach, options)?;
+        loop {
+            // Who looks ahead sees what lies before the stretch on one pass and what lies behind it on the other: the farther it sees, the
+            // longer the stretch has to be for both to have something in common.
+            let stretch = options.stretch * reach / options.reach;
+            let first = keyframes.partition_point(|other| other.travelled < travelled - stretch);
+            let last = keyframes.partition_point(|other| other.travelled <= travelled + stretch);
+            let grid = drawn(log, &keyframes[first..last], keyframes[middle].tracked, (stretch, reach))?;
             let walls = walls(&grid);
             if walls.len() >= ENOUGH || reach >= options.farthest_reach {
-                break (grid, walls);
+                let field = Field::new(&grid);
+                return Ok(Submap { middle, keyframes: first..last, travelled, stretch, walls, field });
             }
             reach = (2.0 * reach).min(options.farthest_reach);
-        };
-        Ok(Submap { middle, keyframes: first..last, travelled, walls, field: Field::new(&grid) })
+        }
     }
 
     /// The surfaces of the stretch in the submap's frame.

@@ -21,6 +21,10 @@ pub(super) const BELIEVED: f64 = 0.5;
 const CONFIRMED: usize = 4;
 /// Where the robot is known up to this standard deviation, in metres, it is where it seems to be.
 const WELL_KNOWN: f64 = 2.5;
+/// A stretch lies between two returns if neither is farther from it than so many metres of travel.
+const BETWEEN: f64 = 60.0;
+/// What part of a way two passes of it differ by: a robot does not go where it went to the centimetre.
+const WAY_ERROR: f64 = 0.03;
 /// Metres of travel between the scans that are asked whether the robot is back.
 const STEP: f64 = 1.0;
 
@@ -113,7 +117,10 @@ pub(super) fn evidence(track: &Track, closed: &ClosedTrack) -> (Evidence, Vec<Su
         *if is_known { &mut evidence.unconfirmed } else { &mut evidence.adrift } += 1;
         warnings.push(SurveyWarning::Unconfirmed { scan: later + 1, earlier: earlier + 1 });
     }
-    for (earlier, later) in possible_stretches(track, &closed.alike.possible) {
+    let possible = closed.alike.possible.iter().copied();
+    let possible: Vec<(usize, usize)> =
+        possible.filter(|pair| !is_between_returns(track, &believed, *pair)).collect();
+    for (earlier, later) in possible_stretches(track, &possible) {
         evidence.adrift += 1;
         warnings.push(SurveyWarning::Possible { scan: later + 1, earlier: earlier + 1 });
     }
@@ -141,6 +148,27 @@ fn doubtful(returns: &[Vec<Closure>]) -> Vec<Closure> {
         doubtful.clear();
     }
     doubtful
+}
+
+/// Whether there are returns before and after a pair of scans that looks alike, and the robot went as far from the one to the other as it
+/// had the first time, in either direction: then it went the same way, and the pair is where it has to be.
+fn is_between_returns(track: &Track, believed: &[Closure], (earlier, later): (usize, usize)) -> bool {
+    let at = |scan: usize| track.scans[scan].travelled;
+    let firm = || believed.iter().filter(|closure| !slides(closure));
+    let goes = |direction: f64, onward: bool| {
+        firm().any(|closure| {
+            let (now, then) = (at(closure.later) - at(later), at(closure.earlier) - at(earlier));
+            (now > 0.0) == onward
+                && now.abs() < BETWEEN
+                && (now - direction * then).abs() < NEAR + WAY_ERROR * now.abs()
+        })
+    };
+    [1.0, -1.0].into_iter().any(|direction| goes(direction, false) && goes(direction, true))
+}
+
+/// Whether a closure can be slid along its corridor.
+fn slides(closure: &Closure) -> bool {
+    Known::of(STEP, &closure.covariance).across > WELL_KNOWN
 }
 
 /// One pair of scans for each later stretch of the way that looks like an earlier one where it may be. One pair alone is chance.
@@ -234,7 +262,7 @@ fn ways(track: &Track, asked: &[usize], believed: &[Closure]) -> Ways {
     for closure in believed {
         let link = UncertainPose { mean: closure.relative, covariance: closure.covariance };
         // What can be slid along a corridor is no short cut.
-        if Known::of(STEP, &link.covariance).across > WELL_KNOWN {
+        if slides(closure) {
             continue;
         }
         ways.add([nearest(closure.earlier), nearest(closure.later)], STEP, link).ok();
@@ -352,12 +380,33 @@ mod tests {
             },
         );
         assert_eq!((counts(found), found.adrift, warnings), ((0, 0, 0), 0, vec![]));
+        // 4 m back from where the returns say that the robot is.
+        let elsewhere = |from: f64, to: f64| -> Vec<(usize, usize)> {
+            pairs(from, to).into_iter().map(|(earlier, later)| (earlier, later - 8)).collect()
+        };
         let alike = |from: f64, to: f64| ClosedTrack {
-            alike: Alike { possible: pairs(from, to), ..Alike::default() },
+            alike: Alike { possible: elsewhere(from, to), ..Alike::default() },
             ..closed(again(2, 60))
         };
         let doubts = |from: f64, to: f64| evidence(&around(), &alike(from, to)).0.adrift;
         assert_eq!((doubts(0.0, 60.0), doubts(10.0, 18.0), doubts(10.0, 14.0)), (4, 1, 0));
+    }
+
+    /// From one return to the next it went as far as the first time: what looks alike between them is no doubt. After the last one it may be.
+    #[test]
+    fn what_looks_alike_between_two_returns_is_where_it_has_to_be() {
+        let possible =
+            |at: [f64; 2]| at.map(|at| ((2.0 * at) as usize - 1, (2.0 * (at + 120.0)) as usize - 1)).to_vec();
+        let doubts = |returns: Vec<Closure>, at: [f64; 2]| {
+            let alike = Alike { possible: possible(at), ..Alike::default() };
+            evidence(&around(), &ClosedTrack { alike, ..closed(returns) }).0.adrift
+        };
+        let ends: Vec<Closure> = again(2, 12).into_iter().chain(again(48, 60)).collect();
+        assert_eq!([doubts(ends.clone(), [25.0, 30.0]), doubts(again(2, 12), [25.0, 30.0])], [0, 1]);
+        // Bare corridors do not tell how far along the robot is.
+        let covariance = Covariance::from_standard_deviations(5.0, 0.1, 0.01).unwrap();
+        let sliding = ends.into_iter().map(|closure| Closure { covariance, ..closure }).collect();
+        assert_eq!(doubts(sliding, [25.0, 30.0]), 1);
     }
 
     /// The robot was believed to be 3 m off, and known up to 2 m: of two returns that is one too surprising, of four it is none.

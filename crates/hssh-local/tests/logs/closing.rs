@@ -205,7 +205,7 @@ fn the_jambs_seen_on_the_way_back_are_others() {
         assert!(closed.sigmas(closure) < 5.0, "{closure:?} is off by {:?}", closed.off(closure));
     }
     let after = closed.error(closed.closed.poses());
-    assert!(after < 0.25, "{after} m");
+    assert!(after < 0.4, "{after} m");
 }
 
 /// Where niches are along corridors that look alike, and how wide.
