@@ -77,15 +77,8 @@ pub(crate) fn by_posterior(
     exploration: &Exploration,
     context: Context<'_>,
 ) -> Option<String> {
-    let Engine { appraiser, tree, .. } = engine;
-    let open = context.crew.map(&open(engine), context.experience, |cursor, leaf| {
-        let (mut leaf, mut laid_out) = (leaf.clone(), leaf.clone());
-        appraiser.settle(&mut laid_out, cursor, tree, context)?;
-        // What was estimated is told as long as it is less: of layouts bent out of all measure a lower one may exist.
-        leaf.load.bound = leaf.load.bound.min(laid_out.load.bound);
-        Ok::<_, SolveError>(leaf)
-    });
-    let open = open.into_iter().collect::<Result<Vec<_>, _>>().ok()?;
+    let appraiser = &engine.appraiser;
+    let open = laid_out(engine, context)?;
     let best = engine.found.first().map(|found| found.leaf.key);
     let reach = best.map(|best| appraiser.reach(best, 0.0));
     if open
@@ -126,8 +119,27 @@ pub(crate) fn by_posterior(
         let _ = writeln!(after, "trust lowest-minimum {}", engine.solved + open.len() as u64);
     }
     let best = best.map(|best| appraiser.score(best));
-    text += &body(tree, &entries(engine, &open), best, &after);
+    text += &body(&engine.tree, &entries(engine, &open), best, &after);
     Some(text)
+}
+
+/// The probability of all maps that were not found, at most, with no open hypothesis left to a linear estimate. `None` if one of them
+/// cannot be laid out.
+pub(crate) fn rest_laid_out(engine: &Engine<ByPosterior>, context: Context<'_>) -> Option<f64> {
+    Some(rest(engine, &laid_out(engine, context)?))
+}
+
+/// The open hypotheses, laid out: bounds that rest on no linear estimate of their own.
+fn laid_out(engine: &Engine<ByPosterior>, context: Context<'_>) -> Option<Vec<Leaf<ByPosterior>>> {
+    let Engine { appraiser, tree, .. } = engine;
+    let open = context.crew.map(&open(engine), context.experience, |cursor, leaf| {
+        let (mut leaf, mut laid_out) = (leaf.clone(), leaf.clone());
+        appraiser.settle(&mut laid_out, cursor, tree, context)?;
+        // What was estimated is told as long as it is less: of layouts bent out of all measure a lower one may exist.
+        leaf.load.bound = leaf.load.bound.min(laid_out.load.bound);
+        Ok::<_, SolveError>(leaf)
+    });
+    open.into_iter().collect::<Result<Vec<_>, _>>().ok()
 }
 
 /// All hypotheses that are not expanded.

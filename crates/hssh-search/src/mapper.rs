@@ -337,14 +337,14 @@ impl Mapper {
                 let preference = engine.appraiser.preference;
                 if self.options.order == Order::BreadthFirst {
                     let (finals, maps) = engine.level().survey(&engine.tree, context, preference, most);
-                    return (self.report_on(engine, finals), maps);
+                    return (self.report_on(engine, finals, None), maps);
                 }
                 let (finals, maps) = self.survey(engine, preference, context, most);
-                (self.report_on(engine, finals), maps)
+                (self.report_on(engine, finals, None), maps)
             }
             Search::Posterior(engine) => {
                 let (mut finals, mut maps) = self.survey(engine, Preference::default(), context, usize::MAX);
-                let proof = proof(engine);
+                let proof = self.proof_of_posterior(engine, context);
                 let least = maps.first().and_then(RankedMap::nats).unwrap_or(0.0);
                 let weight = |map: &RankedMap| map.nats().map_or(0.0, |nats| (least - nats).exp());
                 let all: f64 = maps.iter().map(weight).sum();
@@ -361,7 +361,7 @@ impl Mapper {
                     finals.optimal = engine.found.iter().filter(|found| found.leaf.key <= tie).count() as u64;
                 }
                 maps.truncate(most);
-                (self.report_on(engine, finals), maps)
+                (self.report_on(engine, finals, Some(proof)), maps)
             }
         }
     }
@@ -486,11 +486,27 @@ impl Mapper {
         (counts, maps)
     }
 
-    fn report_on<A: Pack>(&self, engine: &Engine<A>, finals: FinalCounts) -> Report {
+    /// What is proved. If a linear estimate promised too much somewhere beyond the best map, all that is open is laid out, unless that is
+    /// more work than the proof was: the probability of the rest is then known all the same.
+    fn proof_of_posterior(&self, engine: &Engine<ByPosterior>, context: Context<'_>) -> Proof {
+        let proof = proof(engine);
+        let is_known = proof.rest.is_none_or(|rest| rest < 1.0);
+        if is_known || !proof.proved || self.is_cut_short() || engine.is_much_open() {
+            return proof;
+        }
+        Proof { rest: certificate::rest_laid_out(engine, context).or(proof.rest), ..proof }
+    }
+
+    fn report_on<A: Pack>(
+        &self,
+        engine: &Engine<A>,
+        finals: FinalCounts,
+        proof_told: Option<Proof>,
+    ) -> Report {
         let levels = engine.tally.levels.clone();
         let order = self.options.order;
         let has_bound = A::WEIGHS || matches!(order, Order::Cyclic | Order::Proof);
-        let proof = has_bound.then(|| proof(engine));
+        let proof = proof_told.or_else(|| has_bound.then(|| proof(engine)));
         let is_exhausted = order == Order::BreadthFirst && self.stop == StopReason::Exhausted;
         Report {
             strategy: self.options.strategy(),

@@ -25,7 +25,7 @@ const FRONTS: usize = 8;
 const WIDENING: f64 = 1.0;
 
 /// For the probability of the rest a search expands so many hypotheses more than it did for the proof.
-const REST_WORK: u64 = 2_000;
+const REST_WORK: u64 = 6_000;
 
 impl<A: Pack> Engine<A> {
     /// Sweeps until the best maps are proved, and so little probability is left as was asked for.
@@ -209,6 +209,13 @@ impl<A: Pack> Engine<A> {
         self.sweep
             .proved_after
             .is_some_and(|proved| expanded >= proved.saturating_mul(2).saturating_add(REST_WORK))
+    }
+
+    /// Whether more hypotheses are open than the rest's probability is worth.
+    pub(crate) fn is_much_open(&self) -> bool {
+        let mut open = 0_u64;
+        self.frontier.visit(|_| open += 1);
+        open > self.tally.expanded.saturating_mul(2).saturating_add(REST_WORK)
     }
 
     fn is_out_of_patience(&self) -> Option<StopReason> {

@@ -256,7 +256,7 @@ fn what_comes_after_the_proof_withdraws_nothing_and_has_an_end() {
         let (proved, kept) = (short.report(), long.report());
         assert!(proved.is_optimal && kept.is_optimal, "{side} {travels} {seed}");
         assert_eq!(short.branch(short.maps(1)[0].node), long.branch(long.maps(1)[0].node));
-        assert!(kept.expanded <= 2 * proved.expanded + 2_100, "{} {}", proved.expanded, kept.expanded);
+        assert!(kept.expanded <= 2 * proved.expanded + 6_100, "{} {}", proved.expanded, kept.expanded);
     };
     // The longest of all tests: its cases share the cores.
     std::thread::scope(|scope| {
