@@ -117,6 +117,8 @@ def test_bags_are_read_as_the_program_reads_them(tmp_path):
     with pytest.raises(hssh.FormatError, match="is a pose graph .*, but this command takes a laser log"):
         hssh.read_log(FIXTURES / "graphs" / "two-laps.g2o")
     with pytest.raises(hssh.FormatError, match="has no topics nor frames"):
+        hssh.read_log(carmen(tmp_path), odometry="/odom")
+    with pytest.raises(hssh.FormatError, match="go by the names of their messages: FLASER"):
         hssh.read_log(carmen(tmp_path), scan="/scan")
 
 
