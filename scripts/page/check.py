@@ -137,6 +137,26 @@ def test_clicks(browser, page, answer, what):
     quiet(browser, what)
 
 
+def keys_on_the_picture(browser, invitation, what):
+    """Enter chooses, arrows go from place to place, plus and 0 zoom, and Escape leaves the invitation to choose."""
+    browser.js("document.querySelector('#map-picture .place[tabindex=\"0\"]').focus()")
+    browser.key(Keys.ENTER)
+    same(browser.text("#detail h3"), "Place 0", f"{what}: Enter chooses a place")
+    moved = set()
+    for arrow in (Keys.ARROW_LEFT, Keys.ARROW_RIGHT, Keys.ARROW_UP, Keys.ARROW_DOWN):
+        browser.key(arrow)
+        moved.add(browser.text("#detail h3"))
+        same(browser.js("return document.activeElement.dataset.place"), browser.text("#detail h3").split()[-1], f"{what}: the focus goes along")
+    check(len(moved) > 1, f"{what}: arrows go to other places")
+    wide = browser.js("return document.getElementById('map-picture').viewBox.baseVal.width")
+    browser.key("+")
+    check(browser.js("return document.getElementById('map-picture').viewBox.baseVal.width") < wide, f"{what}: + zooms in")
+    browser.key("0")
+    check(abs(browser.js("return document.getElementById('map-picture').viewBox.baseVal.width") - wide) < 1e-6 * wide, f"{what}: 0 shows everything")
+    browser.key(Keys.ESCAPE)
+    check(invitation in browser.text("#detail"), f"{what}: Escape chooses nothing")
+
+
 def test_keys(browser, page, what):
     fresh(browser, page)
     browser.js("document.body.focus()")
@@ -153,22 +173,7 @@ def test_keys(browser, page, what):
             break
     for stop in ("theme", "place", "travel", "rank-1", "node"):
         check(stop in reached, f"{what}: Tab comes to {stop} (it came to {sorted(reached)})")
-    browser.js("document.querySelector('#map-picture .place[tabindex=\"0\"]').focus()")
-    browser.key(Keys.ENTER)
-    same(browser.text("#detail h3"), "Place 0", f"{what}: Enter chooses a place")
-    moved = set()
-    for arrow in (Keys.ARROW_LEFT, Keys.ARROW_RIGHT, Keys.ARROW_UP, Keys.ARROW_DOWN):
-        browser.key(arrow)
-        moved.add(browser.text("#detail h3"))
-        same(browser.js("return document.activeElement.dataset.place"), browser.text("#detail h3").split()[-1], f"{what}: the focus goes along")
-    check(len(moved) > 1, f"{what}: arrows go to other places")
-    wide = browser.js("return document.getElementById('map-picture').viewBox.baseVal.width")
-    browser.key("+")
-    check(browser.js("return document.getElementById('map-picture').viewBox.baseVal.width") < wide, f"{what}: + zooms in")
-    browser.key("0")
-    check(abs(browser.js("return document.getElementById('map-picture').viewBox.baseVal.width") - wide) < 1e-6 * wide, f"{what}: 0 shows everything")
-    browser.key(Keys.ESCAPE)
-    check("Choose a place" in browser.text("#detail"), f"{what}: Escape chooses nothing")
+    keys_on_the_picture(browser, "Choose a place", what)
     browser.js("document.querySelector('[data-node=\"0\"]').focus()")
     browser.key(Keys.ARROW_RIGHT)
     browser.key(Keys.ENTER)
@@ -427,21 +432,7 @@ def test_plan_mouse(browser, page, what):
 
 def test_plan_keys(browser, page, what):
     fresh(browser, page)
-    browser.js("document.querySelector('#map-picture .place[tabindex=\"0\"]').focus()")
-    browser.key(Keys.ENTER)
-    same(browser.text("#detail h3"), "Place 0", f"{what}: Enter chooses a place")
-    moved = set()
-    for arrow in (Keys.ARROW_LEFT, Keys.ARROW_RIGHT, Keys.ARROW_UP, Keys.ARROW_DOWN):
-        browser.key(arrow)
-        moved.add(browser.text("#detail h3"))
-        same(browser.js("return document.activeElement.dataset.place"), browser.text("#detail h3").split()[-1], f"{what}: the focus goes along")
-    check(len(moved) > 1, f"{what}: arrows go to other places")
-    wide = browser.js("return document.getElementById('map-picture').viewBox.baseVal.width")
-    browser.key("+")
-    check(browser.js("return document.getElementById('map-picture').viewBox.baseVal.width") < wide, f"{what}: + zooms in")
-    browser.key("0")
-    browser.key(Keys.ESCAPE)
-    check("Choose a room" in browser.text("#detail"), f"{what}: Escape chooses nothing")
+    keys_on_the_picture(browser, "Choose a room", what)
     browser.js("document.body.focus()")
     reached = set()
     for _ in range(24):

@@ -324,6 +324,12 @@ impl<A: Pack> Frontier<A> {
         }
     }
 
+    /// How many hypotheses there are.
+    pub(crate) fn len(&self) -> u64 {
+        let away = self.pages().map(|(_, page)| page.leaves).sum::<usize>();
+        (self.queued().count() + self.parked.len() + away) as u64
+    }
+
     /// Shows all hypotheses, in no order that means anything.
     pub(crate) fn visit(&self, mut each: impl FnMut(&Leaf<A>)) {
         self.queued().chain(&self.parked).for_each(&mut each);

@@ -80,10 +80,7 @@ impl<A: Appraise> Turn<A> {
         }
         if matters(appraiser, leaf, reach) {
             let is_overtaken = next.is_some_and(|next| next < (leaf.key, leaf.arrival));
-            taken.end = match is_overtaken {
-                true => End::Overtaken,
-                false => End::Settled,
-            };
+            taken.end = if is_overtaken { End::Overtaken } else { End::Settled };
         }
         taken
     }

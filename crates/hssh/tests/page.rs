@@ -96,7 +96,7 @@ fn needs_nothing(page: &str) {
 #[test]
 fn the_script_makes_no_markup_of_text() {
     let script = std::fs::read_dir(assets().join("js")).unwrap().map(|file| file.unwrap().path());
-    for file in script.chain(["page.html", "plan.html"].map(|frame| assets().join(frame))) {
+    for file in script.chain(["head.html", "page.html", "plan.html"].map(|frame| assets().join(frame))) {
         let text = std::fs::read_to_string(&file).unwrap();
         for dangerous in [
             "innerHTML",

@@ -144,13 +144,19 @@ fn straightened_apart(ring: Vec<[f64; 2]>, mut off: f64) -> Vec<[f64; 2]> {
     straightened(ring, 0.0)
 }
 
-/// Whether two sides of a ring that do not follow one another meet.
+/// Whether two sides of a ring that do not follow one another meet. They are gone through from left to right, so that only those are compared
+/// that lie above one another.
 fn touches_itself(ring: &[[f64; 2]]) -> bool {
-    let side = |at: usize| [ring[at], ring[(at + 1) % ring.len()]];
-    let last = ring.len() - 1;
-    (0..ring.len()).any(|one| {
-        let others = one + 2..ring.len() - usize::from(one == 0);
-        others.filter(|_| last > 1).any(|other| meet(side(one), side(other)))
+    let count = ring.len();
+    let side = |at: usize| [ring[at], ring[(at + 1) % count]];
+    let (left, right) =
+        (|at: usize| side(at)[0][0].min(side(at)[1][0]), |at: usize| side(at)[0][0].max(side(at)[1][0]));
+    let follow = |one: usize, other: usize| (one + 1) % count == other || (other + 1) % count == one;
+    let mut order: Vec<usize> = (0..count).collect();
+    order.sort_by(|&one, &other| left(one).total_cmp(&left(other)));
+    order.iter().enumerate().any(|(place, &one)| {
+        let above = order[place + 1..].iter().take_while(|&&other| left(other) <= right(one));
+        above.filter(|&&other| !follow(one, other)).any(|&other| meet(side(one), side(other)))
     })
 }
 

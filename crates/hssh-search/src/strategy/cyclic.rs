@@ -213,9 +213,7 @@ impl<A: Pack> Engine<A> {
 
     /// Whether more hypotheses are open than the rest's probability is worth.
     pub(crate) fn is_much_open(&self) -> bool {
-        let mut open = 0_u64;
-        self.frontier.visit(|_| open += 1);
-        open > self.tally.expanded.saturating_mul(2).saturating_add(REST_WORK)
+        self.frontier.len() > self.tally.expanded.saturating_mul(2).saturating_add(REST_WORK)
     }
 
     fn is_out_of_patience(&self) -> Option<StopReason> {

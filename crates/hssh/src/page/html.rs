@@ -19,9 +19,16 @@ macro_rules! script {
     };
 }
 
+/// The elements of a page: the head that all pages share, and what is its own.
+macro_rules! frame {
+    ($body:literal) => {
+        concat!(include_str!("assets/head.html"), include_str!(concat!("assets/", $body, ".html")))
+    };
+}
+
 /// The page of an answer.
 pub(super) const ANSWER: Template = Template {
-    frame: include_str!("assets/page.html"),
+    frame: frame!("page"),
     style: include_str!("assets/page.css"),
     script: script!(
         "elements" "words" "replay" "paths" "placement" "view" "star_picture" "camera" "map_picture" "map_card" "detail_card" "time_card"
@@ -31,7 +38,7 @@ pub(super) const ANSWER: Template = Template {
 
 /// The page of a grid map.
 pub(super) const PLAN: Template = Template {
-    frame: include_str!("assets/plan.html"),
+    frame: frame!("plan"),
     style: concat!(include_str!("assets/page.css"), include_str!("assets/plan.css")),
     script: script!(
         "elements" "words" "star_picture" "camera" "plan_words" "plan_picture" "plan_detail" "plan_tables" "theme" "plan_main"
