@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use hssh_metrics::{Marginals, Options, Pose, PoseGraph, SolveError, chordal_poses, solve};
+use hssh_metrics::{Marginals, Options, Pose, PoseGraph, SolveError, chordal_poses, odometry_poses, solve};
 use serde::{Deserialize, Serialize};
 
 use crate::legs::Legs;
@@ -43,7 +43,8 @@ impl Layout {
     /// The layout of a hypothesis that closes a loop in one with this layout, whose last travel it is.
     ///
     /// Least squares start from this layout; if they end far above it, or above what the linear estimate promised,
-    /// they may have been caught in a local minimum, and start once more from the measurements alone.
+    /// they may have been caught in a local minimum, and start again from the measurements alone: from relaxed headings, and
+    /// from dead reckoning.
     pub(crate) fn bent(&self, legs: &Legs, promised: f64) -> Result<Self, SolveError> {
         self.bent_to(&mut legs.graph(self.poses.iter()), legs.constant(), promised)
     }
@@ -60,10 +61,14 @@ impl Layout {
         if chi2 <= 1.0 + 1.5 * promised && chi2 <= self.chi2 + SUSPICIOUS_RISE {
             return Ok(Layout { chi2, ..warm });
         }
-        let start = chordal_poses(graph)?;
-        graph.set_poses(start).expect("as many as there were");
-        let cold = minimum(graph)?;
-        let best = if cold.chi2 < warm.chi2 { cold } else { warm };
+        let mut best = warm;
+        for start in [chordal_poses(graph)?, odometry_poses(graph)?] {
+            graph.set_poses(start).expect("as many as there were");
+            let cold = minimum(graph)?;
+            if cold.chi2 < best.chi2 {
+                best = cold;
+            }
+        }
         Ok(Layout { chi2: best.chi2 + constant, ..best })
     }
 }

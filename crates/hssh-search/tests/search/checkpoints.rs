@@ -151,7 +151,7 @@ fn searches_by_posterior_go_on() {
 /// Eight fronts sweep it, and layouts share poses.
 #[test]
 fn a_long_search_goes_on_in_the_middle_of_a_cycle() {
-    let walk = measured(6).prefix(40);
+    let walk = measured(6).prefix(36);
     let model = PosteriorModel::evidence(&walk).unwrap();
     let search = Mapper::builder().posterior(model).order(Order::Cyclic).axioms(planar());
     assert!(goes_on_as_if_nothing_had_been(&search, &walk) > 1);
