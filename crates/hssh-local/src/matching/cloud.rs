@@ -20,7 +20,7 @@ const STRAIGHT: f64 = 0.03;
 const FILLING: (f64, f64) = (0.2, 4.0);
 /// Directions of surfaces differ by less than about 10° along a wall.
 const PARALLEL: f64 = 0.985;
-/// Side of a bucket in metres: also how far [`Cloud::nearest`] looks at least.
+/// Side of a bucket in metres: also how far [`Cloud::nearest`] looks at most.
 const BUCKET: f64 = 0.5;
 
 /// A hit and the direction that the surface there faces.
@@ -112,8 +112,8 @@ pub(crate) fn filled(surfaces: &[SurfacePoint]) -> Vec<SurfacePoint> {
 #[derive(Clone, Default, Debug)]
 pub(crate) struct Cloud {
     points: Vec<SurfacePoint>,
-    /// For each bucket, which points are in it.
-    buckets: FxHashMap<(i32, i32), Vec<u32>>,
+    /// For each bucket, the numbers of its points that have a normal, with where they are.
+    buckets: FxHashMap<(i32, i32), Vec<(Vector2<f64>, u32)>>,
 }
 
 impl Cloud {
@@ -127,7 +127,9 @@ impl Cloud {
             if self.nearest(position, normal, spacing).is_some() {
                 continue;
             }
-            self.buckets.entry(bucket(position)).or_default().push(self.points.len() as u32);
+            if normal.is_some() {
+                self.buckets.entry(bucket(position)).or_default().push((position, self.points.len() as u32));
+            }
             self.points.push(SurfacePoint { position, normal });
         }
     }
@@ -145,16 +147,20 @@ impl Cloud {
         facing: Option<Vector2<f64>>,
         reach: f64,
     ) -> Option<&SurfacePoint> {
-        let (column, row) = bucket(position);
+        let ((first_column, first_row), (last_column, last_row)) =
+            (bucket(position.add_scalar(-reach)), bucket(position.add_scalar(reach)));
         let mut best = None;
         let mut least = reach * reach;
-        for dy in -1..=1 {
-            for dx in -1..=1 {
-                for &index in self.buckets.get(&(column + dx, row + dy)).into_iter().flatten() {
+        for row in first_row..=last_row {
+            for column in first_column..=last_column {
+                for &(there, index) in self.buckets.get(&(column, row)).into_iter().flatten() {
+                    let distance = (there - position).norm_squared();
+                    if distance >= least {
+                        continue;
+                    }
                     let point = &self.points[index as usize];
-                    let distance = (point.position - position).norm_squared();
                     let is_seen_so = |normal: Vector2<f64>| facing.is_none_or(|own| own.dot(&normal) > 0.0);
-                    if distance < least && point.normal.is_some_and(is_seen_so) {
+                    if point.normal.is_some_and(is_seen_so) {
                         (best, least) = (Some(point), distance);
                     }
                 }

@@ -39,11 +39,15 @@ impl LikelihoodField {
         for point in cloud.points() {
             let at = (point.position - origin) / CELL;
             let (column, row) = (at.x.floor() as i64, at.y.floor() as i64);
-            for dy in -radius..=radius {
-                for dx in -radius..=radius {
-                    let Some(index) = field.index(column + dx, row + dy) else { continue };
-                    let middle = vector![(column + dx) as f64 + 0.5, (row + dy) as f64 + 0.5];
-                    squared[index] = squared[index].min((middle - at).norm_squared());
+            let within = |at: i64, side: usize| {
+                (at - radius).clamp(0, side as i64) as usize..(at + radius + 1).clamp(0, side as i64) as usize
+            };
+            let columns = within(column, field.width);
+            for row in within(row, field.height) {
+                let down = (row as f64 + 0.5 - at.y).powi(2);
+                let cells = &mut squared[row * field.width..][columns.clone()];
+                for (cell, column) in cells.iter_mut().zip(columns.clone()) {
+                    *cell = cell.min((column as f64 + 0.5 - at.x).powi(2) + down);
                 }
             }
         }
