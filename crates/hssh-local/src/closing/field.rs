@@ -12,6 +12,8 @@ const BLUR: f64 = 0.12;
 const NEAR: f64 = 0.2;
 /// How much a wall in what was seen free speaks against a pose; one on a wall counts 1.
 const CONTRADICTION: f64 = -0.6;
+/// At so many standard deviations the fit is none, to a unit.
+const FAR: f64 = 5.0;
 /// A hundredth is the unit of the numbers kept.
 const UNIT: f64 = 100.0;
 
@@ -45,10 +47,11 @@ impl Level {
             |block: i32| (block % width + 1) * size > self.width || (block / width + 1) * size > self.height;
         let mut values: Vec<i8> =
             (0..width * height).map(|block| if is_cut(block) { 0 } else { i8::MIN }).collect();
-        for (index, &value) in (0..).zip(&self.values) {
-            let (column, row) = (index % self.width, index / self.width);
-            let block = &mut values[(row / size * width + column / size) as usize];
-            *block = value.max(*block);
+        for (row, cells) in (0..).zip(self.values.chunks_exact(self.width as usize)) {
+            let blocks = &mut values[(row / size * width) as usize..][..width as usize];
+            for (block, cells) in blocks.iter_mut().zip(cells.chunks(size as usize)) {
+                *block = cells.iter().fold(*block, |best, &value| best.max(value));
+            }
         }
         Level { first: 0, width, height, values }
     }
@@ -75,7 +78,7 @@ impl Field {
         let value = |cell: Cell| {
             let squared = to_wall.squared_cells(cell).map_or(f64::INFINITY, f64::from);
             let off = squared.sqrt() * lattice.resolution();
-            let fit = (-0.5 * (off / BLUR).powi(2)).exp();
+            let fit = if off < FAR * BLUR { (-0.5 * (off / BLUR).powi(2)).exp() } else { 0.0 };
             let is_contradicted = grid.get(cell) == Occupancy::Free && off > NEAR;
             let value =
                 if is_contradicted { (CONTRADICTION * ((off - NEAR) / NEAR).min(1.0)).min(fit) } else { fit };

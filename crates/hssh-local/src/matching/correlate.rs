@@ -16,6 +16,8 @@ const OUTLIER: f64 = 0.05;
 const STEP: (f64, f64) = (CELL, 0.02);
 /// The most steps to each side.
 const MOST_STEPS: f64 = 12.0;
+/// After so many hits it is seen whether a pose can still be the best.
+const AT_ONCE: usize = 16;
 
 /// How well hits fit, as a grid of log-likelihoods around the surfaces seen before.
 pub(super) struct LikelihoodField {
@@ -113,8 +115,14 @@ pub(super) fn search(
                 let off = Vector3::new(shift.x, shift.y, f64::from(turn) * STEP.1);
                 let prior = -0.5 * off.dot(&(information.matrix() * off));
                 let cells = (i64::from(column), i64::from(row));
-                let fit: f64 = hits.iter().map(|&hit| field.at_cell(hit, cells)).sum();
-                let score = prior + weight * fit;
+                // Every hit speaks against a pose or not at all, so that the sum only falls.
+                let mut score = prior;
+                for hits in hits.chunks(AT_ONCE) {
+                    score += weight * hits.iter().map(|&hit| field.at_cell(hit, cells)).sum::<f64>();
+                    if score <= best.0 {
+                        break;
+                    }
+                }
                 if score > best.0 {
                     best = (score, Pose::new(turned.x + shift.x, turned.y + shift.y, turned.theta));
                 }
