@@ -2,6 +2,7 @@
 //! worse than it should be.
 
 mod building;
+mod by_hand;
 mod drift;
 mod figures;
 mod mrpt;
@@ -39,7 +40,8 @@ pub(crate) fn run(flags: &flags::Log) -> Result<(), Box<dyn Error>> {
     if flags.mrpt && !with_mrpt {
         println!("MRPT (icp-slam, rbpf-slam, carmen2rawlog; Debian: mrpt-apps) or python3 is not installed");
     }
-    let (mut all, mut compared, mut drifts, mut buildings) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
+    let (mut all, mut compared, mut drifts) = (Vec::new(), Vec::new(), Vec::new());
+    let (mut buildings, mut found_by_hand) = (Vec::new(), Vec::new());
     for name in LOGS {
         let path = file(data, name);
         if !path.is_file() {
@@ -53,6 +55,9 @@ pub(crate) fn run(flags: &flags::Log) -> Result<(), Box<dyn Error>> {
         let track: Vec<Pose> = tracked.scans.iter().map(|scan| scan.pose).collect();
         all.push(Figures::of(name, &mapping, &track));
         buildings.extend(mapping.answer().and_then(|answer| building::Building::of(name, answer)));
+        if let Some(answer) = mapping.answer() {
+            found_by_hand.extend(by_hand::ByHand::of(name, answer)?);
+        }
         drifts.extend(drift::rows(name, mapping.log(), &tracked));
         let known = relations(data, name, &mapping)?;
         let truth: Vec<Pose> = mapping.log().scans.iter().map(|scan| scan.corrected).collect();
@@ -76,6 +81,7 @@ pub(crate) fn run(flags: &flags::Log) -> Result<(), Box<dyn Error>> {
     println!("{}", table::of_compared(&compared));
     println!("{}", table::of_drift(&drifts));
     println!("{}", building::table(&buildings));
+    println!("{}", by_hand::table(&found_by_hand));
     let plans = data.join("gridmap/rooms");
     match plans.is_dir() {
         true => println!("{}", tours::report(&plans)?),
