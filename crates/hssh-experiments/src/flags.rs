@@ -11,7 +11,7 @@ xflags::xflags! {
             optional name: String
             /// All of them.
             optional --all
-            /// With --all: those that take a quarter of a minute, too.
+            /// With --all: those that take a quarter of a minute, too. With `scale`: worlds of 400 to 1,000 places instead.
             optional --slow
             /// Fail if a value differs from the expected one.
             optional --check

@@ -33,10 +33,7 @@ struct Row {
 pub(super) fn run(flags: &flags::Experiment) -> Result<(), Box<dyn Error>> {
     let seeds = flags.seeds.unwrap_or(if flags.all { 1 } else { SEEDS });
     let seconds = flags.seconds.unwrap_or(if flags.all { 2 } else { 60 });
-    let largest = if flags.all { 6 } else { 12 };
-    let snakes = (4..=largest).map(|size| ("snake", size));
-    let random = [25, 50, 100, 150, 200].into_iter().filter(|&places| places <= largest * largest * 2);
-    let sizes: Vec<(&'static str, u32)> = snakes.chain(random.map(|places| ("random", places))).collect();
+    let sizes = sizes(flags.all, flags.slow);
 
     let mut rows = Vec::new();
     for (kind, size) in sizes {
@@ -73,6 +70,17 @@ pub(super) fn run(flags: &flags::Experiment) -> Result<(), Box<dyn Error>> {
         return Err(format!("{wrong} searches in 4×4 and 5×5 did not prove the true map").into());
     }
     Ok(())
+}
+
+/// The kinds of worlds, and how large they are: the smallest, those that are tried if nobody says otherwise, or the largest.
+fn sizes(is_small: bool, is_large: bool) -> Vec<(&'static str, u32)> {
+    if is_large && !is_small {
+        return vec![("snake", 20), ("snake", 30), ("random", 500), ("random", 1000)];
+    }
+    let largest = if is_small { 6 } else { 12 };
+    let snakes = (4..=largest).map(|size| ("snake", size));
+    let random = [25, 50, 100, 150, 200].into_iter().filter(|&places| places <= largest * largest * 2);
+    snakes.chain(random.map(|places| ("random", places))).collect()
 }
 
 /// A world of that kind and size, and the way through it.

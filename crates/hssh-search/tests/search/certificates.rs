@@ -91,7 +91,7 @@ fn by_posterior() {
     let uniform = PlacePrior::Uniform(UniformPrior::over_area(1024.0).unwrap());
     let f = MapPrior::Simplicity(Simplicity { c1: 0.5, c2: 2.0, c3: 1.0 });
     for (seed, noise) in [(1, 0.3), (2, 1.0)] {
-        let exploration = noisy(4, noise, seed);
+        let exploration = noisy(3, noise, seed);
         let corridor = Corridor::typical_of(&exploration).unwrap();
         for metrical in [
             Metrical::Ignored,
