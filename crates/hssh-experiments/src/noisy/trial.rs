@@ -58,8 +58,10 @@ impl Course {
                 let truth = self.world.visits(&self.route)?;
                 let same = |a: usize, b: usize| visits[a].place == visits[b].place;
                 let truly_same = |a: usize, b: usize| truth[a] == truth[b];
-                // Stars are written down from the same end on at every visit of a place.
-                visits.iter().all(|visit| visit.phi.rotation() == 0)
+                // A search that was stopped has a map of the first visits. Stars are written down from the same end on at every visit
+                // of a place.
+                visits.len() == truth.len()
+                    && visits.iter().all(|visit| visit.phi.rotation() == 0)
                     && (0..truth.len()).all(|a| (0..a).all(|b| same(a, b) == truly_same(a, b)))
             }
         };
