@@ -67,7 +67,7 @@ pub use place::{
 pub use progress::Reply;
 pub use recording::{RecordedScan, Recording, TimedPose};
 pub use region::{
-    CutOptions, DoorwayOptions, KindOptions, Outline, Passage, Region, RegionKind, RegionMap, RegionNumber,
+    CutOptions, DoorwayOptions, KindOptions, LeafOptions, Outline, Passage, Region, RegionKind, RegionMap, RegionNumber,
     RegionOptions, without_rims,
 };
 pub use roadmap::{

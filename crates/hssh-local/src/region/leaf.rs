@@ -1,0 +1,359 @@
+//! Leaves of doors that stand open: thin bars that hang on a jamb beside an opening that they would close, one alone or two
+//! together. They part no rooms, and where they hang is a door.
+
+use std::f64::consts::TAU;
+
+use rustc_hash::FxHashSet;
+
+use super::options::LeafOptions;
+use crate::grid::{Cell, Lattice};
+
+/// So many directions from a hinge are tried for an opening.
+const DIRECTIONS: u32 = 72;
+/// The hinge lies up to so many metres within the jamb, and this is where it is looked for.
+const DEPTHS: [f64; 3] = [0.0, 0.05, 0.1];
+/// A leaf is no thicker than this in metres, and two cells more.
+const THICKNESS: f64 = 0.07;
+/// So much of a bar, in metres, has to be seen to say where it leads.
+const BEGIN: f64 = 0.3;
+/// How far beside and beyond an opening there must be space and wall, in metres, ...
+const AROUND: f64 = 0.35;
+/// ... and which part of the line beyond it is wall.
+const WALLED: f64 = 0.7;
+/// The shorter of two leaves is at least this part as long as the other.
+const ALIKE: f64 = 0.6;
+/// The cosine of the least angle between a leaf that stands open and the opening.
+const OPEN: f64 = 0.97;
+
+/// A point or a vector in cells; the middle of a cell is a whole number.
+type Vector = [f64; 2];
+
+/// A leaf that stands open; in metres.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub(super) struct Leaf {
+    /// Where it hangs.
+    pub(super) hinge: [f64; 2],
+    /// Its free end.
+    pub(super) tip: [f64; 2],
+}
+
+impl Leaf {
+    pub(super) fn length(&self) -> f64 {
+        length(minus(self.tip, self.hinge))
+    }
+}
+
+/// The leaves of a map of which the obstacles are given, and the cells that they cover.
+pub(super) fn leaves(
+    lattice: &Lattice,
+    is_obstacle: impl Fn(usize) -> bool,
+    options: &LeafOptions,
+) -> (Vec<Leaf>, Vec<Cell>) {
+    let field = Field { lattice: *lattice, is_obstacle, options };
+    let bars = field.bars();
+    let (mut leaves, mut cells) = (Vec::new(), Vec::new());
+    for (number, bar) in bars.iter().enumerate() {
+        let pairs = || bars.iter().enumerate().filter(|&(other, _)| other != number);
+        if field.closes(bar) || pairs().any(|(_, other)| field.close_together(bar, other)) {
+            let metres = |[column, row]: Vector| lattice.point([column + 0.5, row + 0.5]);
+            leaves.push(Leaf { hinge: metres(bar.hinge), tip: metres(bar.tip) });
+            cells.extend(field.cells_of(bar));
+        }
+    }
+    (leaves, cells)
+}
+
+/// A thin bar with a free end and one at which it is joined to something.
+#[derive(Clone, Copy, Debug)]
+struct Bar {
+    tip: Vector,
+    hinge: Vector,
+}
+
+impl Bar {
+    fn length(&self) -> f64 {
+        length(minus(self.tip, self.hinge))
+    }
+
+    /// From the tip to the hinge, of length 1.
+    fn direction(&self) -> Vector {
+        unit(minus(self.hinge, self.tip))
+    }
+}
+
+/// What is asked for leaves; lengths in cells, unless they are constants.
+struct Field<'a, F> {
+    lattice: Lattice,
+    is_obstacle: F,
+    options: &'a LeafOptions,
+}
+
+impl<F: Fn(usize) -> bool> Field<'_, F> {
+    fn cells(&self, metres: f64) -> f64 {
+        metres / self.lattice.resolution()
+    }
+
+    fn thickness(&self) -> f64 {
+        self.cells(THICKNESS) + 2.0
+    }
+
+    /// By how much an opening may be wider or narrower than what closes it.
+    fn tolerance(&self, closing: f64) -> f64 {
+        self.options.fits * closing + 1.5
+    }
+
+    /// Whether there is an obstacle at a point. There is beyond the map.
+    fn is_at(&self, [column, row]: Vector) -> bool {
+        let (column, row) = (column.round(), row.round());
+        let is_on = (0.0..f64::from(self.lattice.width())).contains(&column)
+            && (0.0..f64::from(self.lattice.height())).contains(&row);
+        !is_on || (self.is_obstacle)(self.lattice.index(Cell { column: column as u32, row: row as u32 }))
+    }
+
+    /// All bars that are as long as leaves.
+    fn bars(&self) -> Vec<Bar> {
+        let lengths = self.cells(self.options.shortest)..=self.cells(self.options.longest);
+        let mut bars: Vec<Bar> = Vec::new();
+        for tip in self.tips() {
+            let is_same = |bar: &Bar| length(minus(bar.tip, point(tip))) <= 1.5 * self.thickness();
+            if bars.iter().rev().take_while(|bar| bar.tip[1] + 2.0 * self.thickness() > f64::from(tip.row)).any(is_same) {
+                continue;
+            }
+            bars.extend(self.bar(tip).filter(|bar| lengths.contains(&bar.length())));
+        }
+        bars
+    }
+
+    /// The cells of obstacles of which at least five neighbors in a row are free: corners, and what stands out.
+    fn tips(&self) -> impl Iterator<Item = Cell> {
+        let (width, height) = (self.lattice.width() as usize, self.lattice.height() as usize);
+        let inner = (1..height.max(1) - 1).flat_map(move |row| (1..width.max(1) - 1).map(move |column| row * width + column));
+        let is_tip = move |&index: &usize| {
+            let is_obstacle = |index: usize| (self.is_obstacle)(index);
+            if !is_obstacle(index) || is_obstacle(index - 1) && is_obstacle(index + 1) {
+                return false;
+            }
+            let (up, down) = (index + width, index - width);
+            let around = [index + 1, up + 1, up, up - 1, index - 1, down - 1, down, down + 1];
+            let free: u32 = around.into_iter().enumerate().map(|(bit, near)| u32::from(!is_obstacle(near)) << bit).sum();
+            // A bit each, twice around: five in a row.
+            let twice = free | free << 8;
+            (twice & twice >> 1 & twice >> 2 & twice >> 3 & twice >> 4) & 0xFF != 0
+        };
+        inner.filter(is_tip).map(|index| self.lattice.cell(index))
+    }
+
+    /// The bar that ends in a tip.
+    fn bar(&self, tip: Cell) -> Option<Bar> {
+        let (start, mut at, mut ahead) = self.begin(tip)?;
+        let longest = self.cells(self.options.longest) + 1.0;
+        let mut line = vec![start];
+        loop {
+            match self.across(at, ahead) {
+                Across::Bar(off) => {
+                    let across = [-ahead[1], ahead[0]];
+                    at = plus(at, across, off.clamp(-0.5, 0.5));
+                    line.push(at);
+                }
+                Across::Wall => break,
+                // What hangs loosely ends before the wall.
+                Across::Nothing => {
+                    let apart = self.cells(self.options.apart) as u32;
+                    let beyond = (1..=apart).map(|step| plus(at, ahead, f64::from(step)));
+                    at = beyond.into_iter().find(|&beyond| self.is_at(beyond))?;
+                    break;
+                }
+            }
+            if length(minus(at, start)) > longest {
+                return None;
+            }
+            let so_far = minus(at, start);
+            ahead = unit(so_far);
+            at = plus(at, ahead, 1.0);
+        }
+        let bar = Bar { tip: start, hinge: at };
+        let [dx, dy] = bar.direction();
+        let is_straight = |&there: &Vector| {
+            let [x, y] = minus(there, start);
+            (dx * y - dy * x).abs() <= 1.2
+        };
+        line.iter().all(is_straight).then_some(bar)
+    }
+
+    /// Where the bar begins that ends in a tip, where it leads on, and in which direction.
+    fn begin(&self, tip: Cell) -> Option<(Vector, Vector, Vector)> {
+        let reach = self.cells(BEGIN).max(4.0);
+        let most = ((reach + 2.0) * (self.thickness() + 1.0)) as usize;
+        let start = point(tip);
+        let mut seen: FxHashSet<Cell> = FxHashSet::default();
+        seen.insert(tip);
+        let mut cells = vec![tip];
+        let mut at = 0;
+        while at < cells.len() {
+            for (columns, rows) in [(1, 0), (1, 1), (0, 1), (-1, 1), (-1, 0), (-1, -1), (0, -1), (1, -1)] {
+                let near = self.lattice.step(cells[at], columns, rows)?;
+                let is_near = length(minus(point(near), start)) <= reach;
+                if is_near && (self.is_obstacle)(self.lattice.index(near)) && seen.insert(near) {
+                    cells.push(near);
+                }
+            }
+            if cells.len() > most {
+                return None;
+            }
+            at += 1;
+        }
+        let mean = |is_in: &dyn Fn(f64) -> bool| {
+            let (mut sum, mut count) = ([0.0; 2], 0.0);
+            for &cell in cells.iter().filter(|&&cell| is_in(length(minus(point(cell), start)))) {
+                (sum, count) = (plus(sum, point(cell), 1.0), count + 1.0);
+            }
+            (count > 0.0).then(|| sum.map(|sum| sum / count))
+        };
+        let (near, far) = (mean(&|away| 2.0 * away <= reach)?, mean(&|away| 2.0 * away > reach)?);
+        let (ahead, middle) = (unit(minus(far, near)), mean(&|_| true)?);
+        let half = self.thickness() / 2.0 + 0.5;
+        let mut range = [f64::INFINITY, f64::NEG_INFINITY];
+        for &cell in &cells {
+            let [x, y] = minus(point(cell), middle);
+            if (ahead[0] * y - ahead[1] * x).abs() > half {
+                return None;
+            }
+            let along = ahead[0] * x + ahead[1] * y;
+            range = [range[0].min(along), range[1].max(along)];
+        }
+        let is_long = range[1] - range[0] >= reach - 1.5;
+        let is_its_end = length(minus(plus(middle, ahead, range[0]), start)) <= self.thickness();
+        (is_long && is_its_end)
+            .then(|| (plus(middle, ahead, range[0]), plus(middle, ahead, range[1] - 1.0), ahead))
+    }
+
+    /// What lies across a bar at a point of it.
+    fn across(&self, at: Vector, ahead: Vector) -> Across {
+        let thickness = self.thickness();
+        let across = [-ahead[1], ahead[0]];
+        let is_at = |half: i32| self.is_at(plus(at, across, f64::from(half) / 2.0));
+        let Some(first) = [0, 1, -1, 2, -2].into_iter().find(|&half| is_at(half)) else { return Across::Nothing };
+        let most = (2.0 * thickness) as i32 + 1;
+        let run = |sign: i32| (1..=most).take_while(|step| is_at(first + sign * step)).count() as i32;
+        let (left, right) = (run(1), run(-1));
+        if f64::from(left + right) / 2.0 > thickness {
+            return Across::Wall;
+        }
+        Across::Bar(f64::from(2 * first + left - right) / 4.0)
+    }
+
+    /// Whether a bar would close an opening beside its hinge.
+    fn closes(&self, bar: &Bar) -> bool {
+        let directions = (0..DIRECTIONS).map(|turn| f64::from(turn) / f64::from(DIRECTIONS) * TAU);
+        directions.map(f64::sin_cos).any(|(sin, cos)| self.close(&[*bar], [cos, sin]))
+    }
+
+    /// Whether two bars would together close an opening between their hinges.
+    fn close_together(&self, one: &Bar, other: &Bar) -> bool {
+        let apart = minus(other.hinge, one.hinge);
+        let [shorter, longer] = [one.length().min(other.length()), one.length().max(other.length())];
+        let is_near = length(apart) <= shorter + longer + self.tolerance(shorter + longer) + 2.0 * self.cells(DEPTHS[2]);
+        is_near && shorter >= ALIKE * longer && self.close(&[*one, *other], unit(apart))
+    }
+
+    /// Whether bars would close an opening that leads from the hinge of the first in a direction.
+    fn close(&self, bars: &[Bar], ahead: Vector) -> bool {
+        let closing: f64 = bars.iter().map(Bar::length).sum();
+        let tolerance = self.tolerance(closing);
+        let is_beside = |bar: &Bar, [x, y]: Vector| {
+            let along = bar.direction();
+            -(along[0] * x + along[1] * y) <= OPEN
+        };
+        let back = ahead.map(|axis| -axis);
+        let is_open = bars.iter().zip([ahead, back]).all(|(bar, direction)| is_beside(bar, direction));
+        is_open
+            && DEPTHS.into_iter().any(|depth| {
+                let hinge = plus(bars[0].hinge, bars[0].direction(), self.cells(depth));
+                let is_closed = |wide: f64| (wide - closing).abs() <= tolerance;
+                let wide = self.opening(bars, hinge, ahead, closing + tolerance + 1.0);
+                wide.is_some_and(|wide| is_closed(wide) && self.is_between_walls(bars, hinge, ahead, wide))
+            })
+    }
+
+    /// How far it is from a hinge to the other side of an opening, if it is no more than `most`.
+    fn opening(&self, bars: &[Bar], hinge: Vector, ahead: Vector, most: f64) -> Option<f64> {
+        let jamb = self.cells(self.options.apart);
+        let at = |step: u32| f64::from(step) / 2.0;
+        let is_wall = |step: &u32| self.is_wall(bars, plus(hinge, ahead, at(*step)));
+        let begin = (1..=(2.0 * jamb) as u32).find(|step| !is_wall(step))?;
+        (begin..=(2.0 * most) as u32).find(is_wall).map(at)
+    }
+
+    /// Whether an opening has space before and behind it and, on a side at least, wall along its line.
+    fn is_between_walls(&self, bars: &[Bar], hinge: Vector, ahead: Vector, wide: f64) -> bool {
+        let across = [-ahead[1], ahead[0]];
+        let around = self.cells(AROUND);
+        let steps = || (1..=(2.0 * around) as u32).map(|step| f64::from(step) / 2.0);
+        let is_free = |at: Vector| !self.is_wall(bars, at);
+        let middle = plus(hinge, ahead, wide / 2.0);
+        let is_open = steps().all(|far| is_free(plus(middle, across, far)) && is_free(plus(middle, across, -far)));
+        let leads_on = |from: Vector, sign: f64| {
+            let at = |far: f64, off: f64| plus(plus(from, ahead, sign * far), across, off);
+            let is_wall = |&far: &f64| [0.0, 1.0, -1.0].into_iter().any(|off| !is_free(at(far, off)));
+            let part = steps().filter(is_wall).count() as f64 / steps().count() as f64;
+            part >= WALLED && [around, -around].into_iter().any(|off| is_free(at(around / 2.0, off)))
+        };
+        is_open && (leads_on(hinge, -1.0) || leads_on(plus(hinge, ahead, wide), 1.0))
+    }
+
+    /// Whether there is an obstacle at a point that belongs to none of the bars.
+    fn is_wall(&self, bars: &[Bar], at: Vector) -> bool {
+        self.is_at(at) && !bars.iter().any(|bar| self.is_on(bar, at))
+    }
+
+    /// Whether a point is on a bar, up to its hinge.
+    fn is_on(&self, bar: &Bar, at: Vector) -> bool {
+        let ([dx, dy], [x, y]) = (bar.direction(), minus(at, bar.tip));
+        (-1.0..=bar.length() - 1.0).contains(&(dx * x + dy * y))
+            && (dx * y - dy * x).abs() <= self.thickness() / 2.0 + 0.5
+    }
+
+    /// The cells that a bar covers, up to its hinge.
+    fn cells_of(&self, bar: &Bar) -> impl Iterator<Item = Cell> {
+        let (ahead, half) = (bar.direction(), self.thickness() / 2.0 + 0.5);
+        let bar = *bar;
+        let across = [-ahead[1], ahead[0]];
+        let steps = |from: f64, to: f64| (0..=(2.0 * (to - from)) as u32).map(move |step| from + f64::from(step) / 2.0);
+        let cells = steps(-1.0, bar.length() - 1.0)
+            .flat_map(move |along| steps(-half, half).map(move |off| plus(plus(bar.tip, ahead, along), across, off)));
+        let lattice = self.lattice;
+        cells.filter(|&at| self.is_at(at)).filter_map(move |[column, row]| {
+            lattice.cell_at(lattice.point([column.round() + 0.5, row.round() + 0.5]))
+        })
+    }
+}
+
+/// What lies across a bar.
+enum Across {
+    /// The bar, so many cells to the left.
+    Bar(f64),
+    /// More than a bar.
+    Wall,
+    Nothing,
+}
+
+fn point(cell: Cell) -> Vector {
+    [f64::from(cell.column), f64::from(cell.row)]
+}
+
+fn plus([x, y]: Vector, [dx, dy]: Vector, times: f64) -> Vector {
+    [x + times * dx, y + times * dy]
+}
+
+fn minus([ax, ay]: Vector, [bx, by]: Vector) -> Vector {
+    [ax - bx, ay - by]
+}
+
+fn length([x, y]: Vector) -> f64 {
+    x.hypot(y)
+}
+
+fn unit(vector: Vector) -> Vector {
+    let length = length(vector).max(f64::MIN_POSITIVE);
+    vector.map(|axis| axis / length)
+}
