@@ -24,7 +24,7 @@ pub(super) fn door_probability(
     islands: &mut Islands<'_>,
     options: &DoorwayOptions,
 ) -> f64 {
-    let leaves: f64 = leaves_in(gateway, ground, options).map(Leaf::length).sum();
+    let leaves = leaves_in(gateway, ground, options);
     let odds = options.base
         + options.room * (narrower / options.room_width).min(1.0).ln()
         + options.wall * wall_beside(gateway, ground, options)
@@ -34,15 +34,11 @@ pub(super) fn door_probability(
     1.0 / (1.0 + (-odds).exp())
 }
 
-/// The leaves that hang at the ends of a gateway and stand open.
-fn leaves_in<'a>(
-    gateway: &Gateway,
-    ground: &'a Ground,
-    options: &DoorwayOptions,
-) -> impl Iterator<Item = &'a Leaf> + use<'a> {
-    let (line, reach) = (gateway.line, options.hinge);
-    let hangs = move |leaf: &&Leaf| line.into_iter().any(|end| distance(end, leaf.hinge) <= reach);
-    ground.leaves().iter().filter(hangs)
+/// How long the leaves are together that stand open in a gateway: they hang at its ends, and would close it. 0 if there are none.
+fn leaves_in(gateway: &Gateway, ground: &Ground, options: &DoorwayOptions) -> f64 {
+    let hangs = |leaf: &&Leaf| gateway.line.into_iter().any(|end| distance(end, leaf.hinge) <= options.hinge);
+    let lengths: f64 = ground.leaves().iter().filter(hangs).map(Leaf::length).sum();
+    if (lengths - gateway.width).abs() <= options.leaf_fits * gateway.width { lengths } else { 0.0 }
 }
 
 /// The part of the line beyond an end of the gateway that is wall, at the end where it is more.

@@ -28,8 +28,11 @@ pub(super) struct Ground {
 impl Ground {
     pub(super) fn new(drawn: &OccupancyGrid, options: &RegionOptions) -> Self {
         let mut grid = settled(drawn, options);
-        let is_open = |&index: &usize| drawn.cells()[index] == Occupancy::Free && grid.cells()[index] != Occupancy::Free;
-        let open_edge = edge(drawn.lattice()).map(|cell| drawn.lattice().index(cell)).filter(is_open).collect();
+        let is_open = |&index: &usize| {
+            drawn.cells()[index] == Occupancy::Free && grid.cells()[index] != Occupancy::Free
+        };
+        let open_edge =
+            edge(drawn.lattice()).map(|cell| drawn.lattice().index(cell)).filter(is_open).collect();
         let is_obstacle = |index: usize| match grid.cells()[index] {
             Occupancy::Free => false,
             Occupancy::Occupied => true,

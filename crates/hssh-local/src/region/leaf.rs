@@ -12,8 +12,16 @@ use crate::grid::{Cell, Lattice};
 const DIRECTIONS: u32 = 72;
 /// The hinge lies up to so many metres within the jamb, and this is where it is looked for.
 const DEPTHS: [f64; 3] = [0.0, 0.05, 0.1];
-/// A leaf is no thicker than this in metres, and two cells more.
+/// A leaf is no thicker than this in metres, ...
 const THICKNESS: f64 = 0.07;
+/// ... as it is drawn by so many cells more, in the mean ...
+const MEAN_BLUR: f64 = 1.3;
+/// ... and anywhere.
+const BLUR: f64 = 2.0;
+/// Around a tip so many points are looked at, ...
+const RING: usize = 16;
+/// ... of which a bar takes no more than this.
+const BAR: usize = 4;
 /// So much of a bar, in metres, has to be seen to say where it leads.
 const BEGIN: f64 = 0.3;
 /// How far beside and beyond an opening there must be space and wall, in metres, ...
@@ -22,8 +30,8 @@ const AROUND: f64 = 0.35;
 const WALLED: f64 = 0.7;
 /// The shorter of two leaves is at least this part as long as the other.
 const ALIKE: f64 = 0.6;
-/// The cosine of the least angle between a leaf that stands open and the opening.
-const OPEN: f64 = 0.97;
+/// The cosines of the angles between a leaf that stands open and the opening: 14° to 120°.
+const OPEN: std::ops::RangeInclusive<f64> = -0.5..=0.97;
 
 /// A point or a vector in cells; the middle of a cell is a whole number.
 type Vector = [f64; 2];
@@ -93,8 +101,13 @@ impl<F: Fn(usize) -> bool> Field<'_, F> {
         metres / self.lattice.resolution()
     }
 
+    /// How far the beginning of a bar is looked at.
+    fn reach(&self) -> f64 {
+        self.cells(BEGIN).max(4.0)
+    }
+
     fn thickness(&self) -> f64 {
-        self.cells(THICKNESS) + 2.0
+        self.cells(THICKNESS) + BLUR
     }
 
     /// By how much an opening may be wider or narrower than what closes it.
@@ -113,34 +126,50 @@ impl<F: Fn(usize) -> bool> Field<'_, F> {
     /// All bars that are as long as leaves.
     fn bars(&self) -> Vec<Bar> {
         let lengths = self.cells(self.options.shortest)..=self.cells(self.options.longest);
+        let is_leaf = |bar: &Bar| {
+            lengths.contains(&bar.length())
+                && self.cells_of(bar).len() as f64 <= (self.cells(THICKNESS) + MEAN_BLUR) * bar.length()
+        };
         let mut bars: Vec<Bar> = Vec::new();
         for tip in self.tips() {
-            let is_same = |bar: &Bar| length(minus(bar.tip, point(tip))) <= 1.5 * self.thickness();
-            if bars.iter().rev().take_while(|bar| bar.tip[1] + 2.0 * self.thickness() > f64::from(tip.row)).any(is_same) {
-                continue;
+            let Some(bar) = self.bar(tip).filter(is_leaf) else { continue };
+            let is_near = |a: Vector, b: Vector| length(minus(a, b)) <= 1.5 * self.thickness();
+            let is_same = |other: &Bar| is_near(bar.tip, other.tip) && is_near(bar.hinge, other.hinge);
+            // In the order of their tips.
+            let is_beside = |other: &&Bar| other.tip[1] + 3.0 * self.thickness() > bar.tip[1];
+            if !bars.iter().rev().take_while(is_beside).any(is_same) {
+                bars.push(bar);
             }
-            bars.extend(self.bar(tip).filter(|bar| lengths.contains(&bar.length())));
         }
         bars
     }
 
-    /// The cells of obstacles of which at least five neighbors in a row are free: corners, and what stands out.
+    /// The cells of obstacles at the ends of rows of them of which what lies around is free but for a bar.
     fn tips(&self) -> impl Iterator<Item = Cell> {
         let (width, height) = (self.lattice.width() as usize, self.lattice.height() as usize);
-        let inner = (1..height.max(1) - 1).flat_map(move |row| (1..width.max(1) - 1).map(move |column| row * width + column));
+        let rings = [self.thickness() + 1.5, self.reach() - 1.0].map(|radius| self.ring(radius));
+        let frame = (self.reach() + self.thickness()).ceil() as usize;
+        let rows = frame..height.saturating_sub(frame);
+        let inner =
+            rows.flat_map(move |row| row * width + frame..(row * width + width.saturating_sub(frame)));
         let is_tip = move |&index: &usize| {
             let is_obstacle = |index: usize| (self.is_obstacle)(index);
-            if !is_obstacle(index) || is_obstacle(index - 1) && is_obstacle(index + 1) {
-                return false;
-            }
-            let (up, down) = (index + width, index - width);
-            let around = [index + 1, up + 1, up, up - 1, index - 1, down - 1, down, down + 1];
-            let free: u32 = around.into_iter().enumerate().map(|(bit, near)| u32::from(!is_obstacle(near)) << bit).sum();
-            // A bit each, twice around: five in a row.
-            let twice = free | free << 8;
-            (twice & twice >> 1 & twice >> 2 & twice >> 3 & twice >> 4) & 0xFF != 0
+            let is_end = is_obstacle(index) && !(is_obstacle(index - 1) && is_obstacle(index + 1));
+            let count = |ring: &[isize; RING]| {
+                ring.iter().filter(|&&step| is_obstacle(index.wrapping_add_signed(step))).count()
+            };
+            is_end && rings.iter().all(|ring| count(ring) <= BAR)
         };
         inner.filter(is_tip).map(|index| self.lattice.cell(index))
+    }
+
+    /// The steps, by index, to a ring around a cell.
+    fn ring(&self, radius: f64) -> [isize; RING] {
+        std::array::from_fn(|step| {
+            let (sin, cos) = (step as f64 / RING as f64 * TAU).sin_cos();
+            let [columns, rows] = [cos, sin].map(|axis| (radius * axis).round() as isize);
+            rows * self.lattice.width() as isize + columns
+        })
     }
 
     /// The bar that ends in a tip.
@@ -182,7 +211,7 @@ impl<F: Fn(usize) -> bool> Field<'_, F> {
 
     /// Where the bar begins that ends in a tip, where it leads on, and in which direction.
     fn begin(&self, tip: Cell) -> Option<(Vector, Vector, Vector)> {
-        let reach = self.cells(BEGIN).max(4.0);
+        let reach = self.reach();
         let most = ((reach + 2.0) * (self.thickness() + 1.0)) as usize;
         let start = point(tip);
         let mut seen: FxHashSet<Cell> = FxHashSet::default();
@@ -192,7 +221,8 @@ impl<F: Fn(usize) -> bool> Field<'_, F> {
         while at < cells.len() {
             for (columns, rows) in [(1, 0), (1, 1), (0, 1), (-1, 1), (-1, 0), (-1, -1), (0, -1), (1, -1)] {
                 let near = self.lattice.step(cells[at], columns, rows)?;
-                let is_near = length(minus(point(near), start)) <= reach;
+                let [x, y] = minus(point(near), start);
+                let is_near = x * x + y * y <= reach * reach;
                 if is_near && (self.is_obstacle)(self.lattice.index(near)) && seen.insert(near) {
                     cells.push(near);
                 }
@@ -232,7 +262,9 @@ impl<F: Fn(usize) -> bool> Field<'_, F> {
         let thickness = self.thickness();
         let across = [-ahead[1], ahead[0]];
         let is_at = |half: i32| self.is_at(plus(at, across, f64::from(half) / 2.0));
-        let Some(first) = [0, 1, -1, 2, -2].into_iter().find(|&half| is_at(half)) else { return Across::Nothing };
+        let Some(first) = [0, 1, -1, 2, -2].into_iter().find(|&half| is_at(half)) else {
+            return Across::Nothing;
+        };
         let most = (2.0 * thickness) as i32 + 1;
         let run = |sign: i32| (1..=most).take_while(|step| is_at(first + sign * step)).count() as i32;
         let (left, right) = (run(1), run(-1));
@@ -252,7 +284,8 @@ impl<F: Fn(usize) -> bool> Field<'_, F> {
     fn close_together(&self, one: &Bar, other: &Bar) -> bool {
         let apart = minus(other.hinge, one.hinge);
         let [shorter, longer] = [one.length().min(other.length()), one.length().max(other.length())];
-        let is_near = length(apart) <= shorter + longer + self.tolerance(shorter + longer) + 2.0 * self.cells(DEPTHS[2]);
+        let is_near = length(apart)
+            <= shorter + longer + self.tolerance(shorter + longer) + 2.0 * self.cells(DEPTHS[2]);
         is_near && shorter >= ALIKE * longer && self.close(&[*one, *other], unit(apart))
     }
 
@@ -262,7 +295,7 @@ impl<F: Fn(usize) -> bool> Field<'_, F> {
         let tolerance = self.tolerance(closing);
         let is_beside = |bar: &Bar, [x, y]: Vector| {
             let along = bar.direction();
-            -(along[0] * x + along[1] * y) <= OPEN
+            OPEN.contains(&-(along[0] * x + along[1] * y))
         };
         let back = ahead.map(|axis| -axis);
         let is_open = bars.iter().zip([ahead, back]).all(|(bar, direction)| is_beside(bar, direction));
@@ -291,7 +324,8 @@ impl<F: Fn(usize) -> bool> Field<'_, F> {
         let steps = || (1..=(2.0 * around) as u32).map(|step| f64::from(step) / 2.0);
         let is_free = |at: Vector| !self.is_wall(bars, at);
         let middle = plus(hinge, ahead, wide / 2.0);
-        let is_open = steps().all(|far| is_free(plus(middle, across, far)) && is_free(plus(middle, across, -far)));
+        let is_open =
+            steps().all(|far| is_free(plus(middle, across, far)) && is_free(plus(middle, across, -far)));
         let leads_on = |from: Vector, sign: f64| {
             let at = |far: f64, off: f64| plus(plus(from, ahead, sign * far), across, off);
             let is_wall = |&far: &f64| [0.0, 1.0, -1.0].into_iter().any(|off| !is_free(at(far, off)));
@@ -314,17 +348,19 @@ impl<F: Fn(usize) -> bool> Field<'_, F> {
     }
 
     /// The cells that a bar covers, up to its hinge.
-    fn cells_of(&self, bar: &Bar) -> impl Iterator<Item = Cell> {
+    fn cells_of(&self, bar: &Bar) -> FxHashSet<Cell> {
         let (ahead, half) = (bar.direction(), self.thickness() / 2.0 + 0.5);
-        let bar = *bar;
         let across = [-ahead[1], ahead[0]];
-        let steps = |from: f64, to: f64| (0..=(2.0 * (to - from)) as u32).map(move |step| from + f64::from(step) / 2.0);
-        let cells = steps(-1.0, bar.length() - 1.0)
-            .flat_map(move |along| steps(-half, half).map(move |off| plus(plus(bar.tip, ahead, along), across, off)));
+        let steps = |from: f64, to: f64| {
+            (0..=(2.0 * (to - from)) as u32).map(move |step| from + f64::from(step) / 2.0)
+        };
+        let points = steps(-1.0, bar.length() - 1.0).flat_map(|along| {
+            steps(-half, half).map(move |off| plus(plus(bar.tip, ahead, along), across, off))
+        });
         let lattice = self.lattice;
-        cells.filter(|&at| self.is_at(at)).filter_map(move |[column, row]| {
-            lattice.cell_at(lattice.point([column.round() + 0.5, row.round() + 0.5]))
-        })
+        let cell =
+            |[column, row]: Vector| lattice.cell_at(lattice.point([column.round() + 0.5, row.round() + 0.5]));
+        points.filter(|&at| self.is_at(at)).filter_map(cell).collect()
     }
 }
 

@@ -7,6 +7,8 @@
 mod bits;
 mod border;
 mod door;
+#[cfg(test)]
+mod drawing_tests;
 mod flood;
 mod ground;
 mod island;

@@ -69,7 +69,7 @@ pub struct CutOptions {
 #[derive(Clone, Copy, PartialEq, Debug, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct LeafOptions {
-    /// They are no shorter than this. Default: 0.45 m.
+    /// They are no shorter than this. Default: 0.55 m.
     pub shortest: f64,
     /// They are no longer than this. Default: 1.3 m.
     pub longest: f64,
@@ -108,6 +108,8 @@ pub struct DoorwayOptions {
     pub leaf: f64,
     /// They hang no farther from the ends of the passage than this. Default: 0.35 m.
     pub hinge: f64,
+    /// They are together longer or shorter than the passage is wide by no more than this part of it. Default: 0.25.
+    pub leaf_fits: f64,
 }
 
 /// What tells the kinds of regions apart.
@@ -168,7 +170,7 @@ impl Default for CutOptions {
 
 impl Default for LeafOptions {
     fn default() -> Self {
-        LeafOptions { shortest: 0.45, longest: 1.3, fits: 0.12, apart: 0.2 }
+        LeafOptions { shortest: 0.55, longest: 1.3, fits: 0.12, apart: 0.2 }
     }
 }
 
@@ -186,6 +188,7 @@ impl Default for DoorwayOptions {
             widest_leaf: 0.95,
             leaf: 5.0,
             hinge: 0.35,
+            leaf_fits: 0.25,
         }
     }
 }

@@ -164,7 +164,8 @@ fn paper(regions: &[Region], gaps: &[(Pair, Gap)]) -> Vec<bool> {
     for (number, region) in (0..).zip(regions) {
         has_inside[building.representative(number) as usize] |= region.kind != RegionKind::Outside;
     }
-    let is_inside = |region: u32, building: &mut DisjointSets| has_inside[building.representative(region) as usize];
+    let is_inside =
+        |region: u32, building: &mut DisjointSets| has_inside[building.representative(region) as usize];
     let has_passages = gaps.iter().any(|&((a, _), _)| is_inside(a, &mut building));
     (0..regions.len() as u32).map(|region| has_passages && !is_inside(region, &mut building)).collect()
 }
