@@ -26,8 +26,10 @@ const BAR: usize = 4;
 const BEGIN: f64 = 0.3;
 /// How far beside and beyond an opening there must be space and wall, in metres, ...
 const AROUND: f64 = 0.35;
+/// ... or, if on one side alone, so much wall, ...
+const LEADS_ON: f64 = 1.0;
 /// ... and which part of the line beyond it is wall.
-const WALLED: f64 = 0.7;
+const WALLED: f64 = 0.8;
 /// The shorter of two leaves is at least this part as long as the other.
 const ALIKE: f64 = 0.6;
 /// The cosines of the angles between a leaf that stands open and the opening: 14° to 120°.
@@ -317,22 +319,25 @@ impl<F: Fn(usize) -> bool> Field<'_, F> {
         (begin..=(2.0 * most) as u32).find(is_wall).map(at)
     }
 
-    /// Whether an opening has space before and behind it and, on a side at least, wall along its line.
+    /// Whether an opening has space before and behind it and is in a wall: it leads on on both sides, or far on one.
     fn is_between_walls(&self, bars: &[Bar], hinge: Vector, ahead: Vector, wide: f64) -> bool {
         let across = [-ahead[1], ahead[0]];
         let around = self.cells(AROUND);
-        let steps = || (1..=(2.0 * around) as u32).map(|step| f64::from(step) / 2.0);
+        let steps = |metres: f64| (1..=(2.0 * self.cells(metres)) as u32).map(|step| f64::from(step) / 2.0);
         let is_free = |at: Vector| !self.is_wall(bars, at);
         let middle = plus(hinge, ahead, wide / 2.0);
-        let is_open =
-            steps().all(|far| is_free(plus(middle, across, far)) && is_free(plus(middle, across, -far)));
-        let leads_on = |from: Vector, sign: f64| {
+        let is_open = |far: f64| is_free(plus(middle, across, far)) && is_free(plus(middle, across, -far));
+        let is_wall = |from: Vector, sign: f64, metres: f64| {
             let at = |far: f64, off: f64| plus(plus(from, ahead, sign * far), across, off);
-            let is_wall = |&far: &f64| [0.0, 1.0, -1.0].into_iter().any(|off| !is_free(at(far, off)));
-            let part = steps().filter(is_wall).count() as f64 / steps().count() as f64;
+            let is_on = |&far: &f64| [0.0, 1.0, -1.0].into_iter().any(|off| !is_free(at(far, off)));
+            let part = steps(metres).filter(is_on).count() as f64 / steps(metres).count() as f64;
             part >= WALLED && [around, -around].into_iter().any(|off| is_free(at(around / 2.0, off)))
         };
-        is_open && (leads_on(hinge, -1.0) || leads_on(plus(hinge, ahead, wide), 1.0))
+        let jamb = plus(hinge, ahead, wide);
+        steps(AROUND).all(is_open)
+            && (is_wall(hinge, -1.0, AROUND) && is_wall(jamb, 1.0, AROUND)
+                || is_wall(hinge, -1.0, LEADS_ON)
+                || is_wall(jamb, 1.0, LEADS_ON))
     }
 
     /// Whether there is an obstacle at a point that belongs to none of the bars.

@@ -104,7 +104,7 @@ pub struct DoorwayOptions {
     pub excess: f64,
     /// The widest leaf that is usual. Default: 0.95 m.
     pub widest_leaf: f64,
-    /// The weight of leaves that stand open in it. Default: 5.
+    /// The weight of leaves that stand open in it. Default: 1.
     pub leaf: f64,
     /// They hang no farther from the ends of the passage than this. Default: 0.35 m.
     pub hinge: f64,
@@ -186,7 +186,7 @@ impl Default for DoorwayOptions {
             free_standing: 3.2,
             excess: 16.0,
             widest_leaf: 0.95,
-            leaf: 5.0,
+            leaf: 1.0,
             hinge: 0.35,
             leaf_fits: 0.25,
         }
