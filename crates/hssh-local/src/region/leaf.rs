@@ -18,6 +18,8 @@ const THICKNESS: f64 = 0.07;
 const MEAN_BLUR: f64 = 1.3;
 /// ... and anywhere.
 const BLUR: f64 = 2.0;
+/// The steps to the cells that touch one.
+const AROUND_A_CELL: [(i32, i32); 8] = [(1, 0), (1, 1), (0, 1), (-1, 1), (-1, 0), (-1, -1), (0, -1), (1, -1)];
 /// Around a tip so many points are looked at, ...
 const RING: usize = 16;
 /// ... of which a bar takes no more than this.
@@ -216,28 +218,33 @@ impl<F: Fn(usize) -> bool> Field<'_, F> {
         let reach = self.reach();
         let most = ((reach + 2.0) * (self.thickness() + 1.0)) as usize;
         let start = point(tip);
-        let mut seen: FxHashSet<Cell> = FxHashSet::default();
-        seen.insert(tip);
-        let mut cells = vec![tip];
+        let (reached, width) = ((reach * reach) as i32, self.lattice.width() as i32);
+        let origin = self.lattice.index(tip);
+        // By steps from the tip, which is so far within the map that they lead to cells of it.
+        let mut steps = vec![(0, 0)];
         let mut at = 0;
-        while at < cells.len() {
-            for (columns, rows) in [(1, 0), (1, 1), (0, 1), (-1, 1), (-1, 0), (-1, -1), (0, -1), (1, -1)] {
-                let near = self.lattice.step(cells[at], columns, rows)?;
-                let [x, y] = minus(point(near), start);
-                let is_near = x * x + y * y <= reach * reach;
-                if is_near && (self.is_obstacle)(self.lattice.index(near)) && seen.insert(near) {
-                    cells.push(near);
+        while at < steps.len() {
+            let (column, row) = steps[at];
+            for (columns, rows) in AROUND_A_CELL {
+                let (columns, rows) = (column + columns, row + rows);
+                let is_new = columns * columns + rows * rows <= reached
+                    && (self.is_obstacle)(origin.wrapping_add_signed((rows * width + columns) as isize))
+                    && !steps.contains(&(columns, rows));
+                if is_new {
+                    steps.push((columns, rows));
                 }
             }
-            if cells.len() > most {
+            if steps.len() > most {
                 return None;
             }
             at += 1;
         }
+        let cells: Vec<Vector> =
+            steps.iter().map(|&(columns, rows)| plus(start, [columns.into(), rows.into()], 1.0)).collect();
         let mean = |is_in: &dyn Fn(f64) -> bool| {
             let (mut sum, mut count) = ([0.0; 2], 0.0);
-            for &cell in cells.iter().filter(|&&cell| is_in(length(minus(point(cell), start)))) {
-                (sum, count) = (plus(sum, point(cell), 1.0), count + 1.0);
+            for &cell in cells.iter().filter(|&&cell| is_in(length(minus(cell, start)))) {
+                (sum, count) = (plus(sum, cell, 1.0), count + 1.0);
             }
             (count > 0.0).then(|| sum.map(|sum| sum / count))
         };
@@ -246,7 +253,7 @@ impl<F: Fn(usize) -> bool> Field<'_, F> {
         let half = self.thickness() / 2.0 + 0.5;
         let mut range = [f64::INFINITY, f64::NEG_INFINITY];
         for &cell in &cells {
-            let [x, y] = minus(point(cell), middle);
+            let [x, y] = minus(cell, middle);
             if (ahead[0] * y - ahead[1] * x).abs() > half {
                 return None;
             }
@@ -254,9 +261,12 @@ impl<F: Fn(usize) -> bool> Field<'_, F> {
             range = [range[0].min(along), range[1].max(along)];
         }
         let is_long = range[1] - range[0] >= reach - 1.5;
-        let is_its_end = length(minus(plus(middle, ahead, range[0]), start)) <= self.thickness();
-        (is_long && is_its_end)
-            .then(|| (plus(middle, ahead, range[0]), plus(middle, ahead, range[1] - 1.0), ahead))
+        let end = plus(middle, ahead, range[0]);
+        // Beyond the hole in a wall is more of it.
+        let apart = self.cells(self.options.apart) as u32;
+        let is_free = |step: u32| !self.is_at(plus(end, ahead, -1.0 - f64::from(step)));
+        let is_its_end = length(minus(end, start)) <= self.thickness() && (1..=apart).all(is_free);
+        (is_long && is_its_end).then(|| (end, plus(middle, ahead, range[1] - 1.0), ahead))
     }
 
     /// What lies across a bar at a point of it.
