@@ -14,9 +14,9 @@ const DIRECTIONS: u32 = 72;
 const DEPTHS: [f64; 3] = [0.0, 0.05, 0.1];
 /// A leaf is no thicker than this in metres, ...
 const THICKNESS: f64 = 0.07;
-/// ... as it is drawn by so many cells more, in the mean ...
-const MEAN_BLUR: f64 = 1.3;
-/// ... and anywhere.
+/// ... as it is drawn by so many cells more, in the mean, ...
+const MEAN_BLUR: f64 = 1.0;
+/// ... or anywhere: where one cell would do it takes up to two.
 const BLUR: f64 = 2.0;
 /// The steps to the cells that touch one.
 const AROUND_A_CELL: [(i32, i32); 8] = [(1, 0), (1, 1), (0, 1), (-1, 1), (-1, 0), (-1, -1), (0, -1), (1, -1)];
@@ -132,7 +132,8 @@ impl<F: Fn(usize) -> bool> Field<'_, F> {
         let lengths = self.cells(self.options.shortest)..=self.cells(self.options.longest);
         let is_leaf = |bar: &Bar| {
             lengths.contains(&bar.length())
-                && self.cells_of(bar).len() as f64 <= (self.cells(THICKNESS) + MEAN_BLUR) * bar.length()
+                && self.cells_of(bar).len() as f64
+                    <= (self.cells(THICKNESS) + MEAN_BLUR).max(BLUR) * bar.length()
         };
         let mut bars: Vec<Bar> = Vec::new();
         for tip in self.tips() {
