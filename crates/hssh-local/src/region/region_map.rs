@@ -51,10 +51,7 @@ impl RegionMap {
         };
         let gaps: Vec<(Pair, Gap)> = borders.iter().flat_map(gaps).collect();
         let mut labels = pieces.labels;
-        for label in labels.iter_mut().filter(|label| **label != NO_PIECE) {
-            *label = region_of[*label as usize];
-        }
-        let explored = rim::explored(&labels, extents.len(), &ground, options.narrowest);
+        let explored = rim::explored(&labels, &region_of, &ground, options.narrowest);
         let all: Vec<Region> = extents
             .iter()
             .zip(explored)
@@ -68,7 +65,7 @@ impl RegionMap {
             regions.push(region);
         }
         for label in labels.iter_mut().filter(|label| **label != NO_PIECE) {
-            *label = numbers[*label as usize];
+            *label = numbers[region_of[*label as usize] as usize];
         }
         let gaps: Vec<(Pair, Gap)> = gaps.into_iter().filter(|((a, _), _)| is_kept[*a as usize]).collect();
         let mut passage = |&((a, b), gap): &(Pair, Gap)| {
