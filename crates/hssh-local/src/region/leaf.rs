@@ -293,13 +293,15 @@ impl<F: Fn(usize) -> bool> Field<'_, F> {
         directions.map(f64::sin_cos).any(|(sin, cos)| self.close(&[*bar], [cos, sin]))
     }
 
-    /// Whether two bars would together close an opening between their hinges.
+    /// Whether two bars would together close an opening between their hinges. In cells that are larger than a leaf is thick they
+    /// might as well be walls on both sides of an aisle.
     fn close_together(&self, one: &Bar, other: &Bar) -> bool {
         let apart = minus(other.hinge, one.hinge);
         let [shorter, longer] = [one.length().min(other.length()), one.length().max(other.length())];
         let is_near = length(apart)
             <= shorter + longer + self.tolerance(shorter + longer) + 2.0 * self.cells(DEPTHS[2]);
-        is_near && shorter >= ALIKE * longer && self.close(&[*one, *other], unit(apart))
+        let is_told_from_walls = self.cells(THICKNESS) >= 1.0;
+        is_told_from_walls && is_near && shorter >= ALIKE * longer && self.close(&[*one, *other], unit(apart))
     }
 
     /// Whether bars would close an opening that leads from the hinge of the first in a direction.
