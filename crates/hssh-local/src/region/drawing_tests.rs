@@ -217,3 +217,17 @@ fn a_wall_with_holes_is_a_wall() {
         }
     }
 }
+
+/// What is left of a thick wall between two slits is wall, although it is as small as a chair.
+#[test]
+fn a_piece_between_two_walls_is_wall() {
+    let lattice = Lattice::new(200, 120, 0.05, [0.0, 0.0]).unwrap();
+    let mut grid = OccupancyGrid::filled(lattice, Occupancy::Free);
+    for cell in lattice.cells().filter(|cell| (58..62).contains(&cell.row)) {
+        if !(60..78).contains(&cell.column) && ![120, 136].contains(&cell.column) {
+            grid.set(cell, Occupancy::Occupied);
+        }
+    }
+    let map = regions(&grid);
+    assert_eq!((map.regions.len(), map.passages.len()), (2, 1), "{:?}", map.passages);
+}

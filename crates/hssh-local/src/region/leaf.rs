@@ -20,12 +20,16 @@ const MEAN_BLUR: f64 = 1.0;
 const BLUR: f64 = 2.0;
 /// The steps to the cells that touch one.
 const AROUND_A_CELL: [(i32, i32); 8] = [(1, 0), (1, 1), (0, 1), (-1, 1), (-1, 0), (-1, -1), (0, -1), (1, -1)];
+/// So many neighbors of a tip in a row are free.
+const CONVEX: usize = 4;
 /// Around a tip so many points are looked at, ...
 const RING: usize = 16;
 /// ... of which a bar takes no more than this.
 const BAR: usize = 4;
 /// So much of a bar, in metres, has to be seen to say where it leads.
 const BEGIN: f64 = 0.3;
+/// ... and in cells less than this.
+const FARTHEST: usize = 32;
 /// How far beside and beyond an opening there must be space and wall, in metres, ...
 const AROUND: f64 = 0.35;
 /// ... or, if on one side alone, so much wall, ...
@@ -107,7 +111,7 @@ impl<F: Fn(usize) -> bool> Field<'_, F> {
 
     /// How far the beginning of a bar is looked at.
     fn reach(&self) -> f64 {
-        self.cells(BEGIN).max(4.0)
+        self.cells(BEGIN).clamp(4.0, FARTHEST as f64 - 1.0)
     }
 
     fn thickness(&self) -> f64 {
@@ -157,13 +161,18 @@ impl<F: Fn(usize) -> bool> Field<'_, F> {
         let rows = frame..height.saturating_sub(frame);
         let inner =
             rows.flat_map(move |row| row * width + frame..(row * width + width.saturating_sub(frame)));
+        let beside = AROUND_A_CELL.map(|(columns, rows)| rows as isize * width as isize + columns as isize);
         let is_tip = move |&index: &usize| {
             let is_obstacle = |index: usize| (self.is_obstacle)(index);
-            let is_end = is_obstacle(index) && !(is_obstacle(index - 1) && is_obstacle(index + 1));
+            let is_convex = || {
+                let around = beside.map(|step| is_obstacle(index.wrapping_add_signed(step)));
+                (0..8).any(|first| (first..first + CONVEX).all(|at| !around[at % 8]))
+            };
+            let is_row_end = is_obstacle(index) && !(is_obstacle(index - 1) && is_obstacle(index + 1));
             let count = |ring: &[isize; RING]| {
                 ring.iter().filter(|&&step| is_obstacle(index.wrapping_add_signed(step))).count()
             };
-            is_end && rings.iter().all(|ring| count(ring) <= BAR)
+            is_row_end && is_convex() && rings.iter().all(|ring| count(ring) <= BAR)
         };
         inner.filter(is_tip).map(|index| self.lattice.cell(index))
     }
@@ -223,6 +232,14 @@ impl<F: Fn(usize) -> bool> Field<'_, F> {
         let origin = self.lattice.index(tip);
         // By steps from the tip, which is so far within the map that they lead to cells of it.
         let mut steps = vec![(0, 0)];
+        let mut seen = [0_u64; 2 * FARTHEST];
+        let mut is_first = |columns: i32, rows: i32| {
+            let [column, row] = [columns, rows].map(|step| (step + FARTHEST as i32) as usize);
+            let is_new = seen[row] >> column & 1 == 0;
+            seen[row] |= 1 << column;
+            is_new
+        };
+        is_first(0, 0);
         let mut at = 0;
         while at < steps.len() {
             let (column, row) = steps[at];
@@ -230,7 +247,7 @@ impl<F: Fn(usize) -> bool> Field<'_, F> {
                 let (columns, rows) = (column + columns, row + rows);
                 let is_new = columns * columns + rows * rows <= reached
                     && (self.is_obstacle)(origin.wrapping_add_signed((rows * width + columns) as isize))
-                    && !steps.contains(&(columns, rows));
+                    && is_first(columns, rows);
                 if is_new {
                     steps.push((columns, rows));
                 }
