@@ -67,8 +67,8 @@ pub use place::{
 pub use progress::Reply;
 pub use recording::{RecordedScan, Recording, TimedPose};
 pub use region::{
-    CutOptions, DoorwayOptions, KindOptions, Outline, Passage, Region, RegionKind, RegionMap, RegionNumber,
-    RegionOptions, without_rims,
+    CutOptions, DoorwayOptions, KindOptions, LeafOptions, Outline, Passage, Region, RegionKind, RegionMap,
+    RegionNumber, RegionOptions, without_rims,
 };
 pub use roadmap::{
     Connection, RegionPlace, RoadNode, RoadNodeKind, RoadNodeNumber, Roadmap, RoadmapOptions, Way,

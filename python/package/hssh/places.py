@@ -51,7 +51,7 @@ class GridPlace:
 
 @dataclass(frozen=True)
 class Region:
-    """A region: `kind` is "room", "corridor", "hall" or "doorway"."""
+    """A region: `kind` is "room", "corridor", "hall", "doorway" or "outside"."""
 
     kind: str
     area: float

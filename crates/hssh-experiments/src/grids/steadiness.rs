@@ -40,7 +40,7 @@ pub(super) fn report(folder: &Path) -> Result<String, Box<dyn Error>> {
         let plan = read_floor_plan(&folder.join(format!("{name}.png")), RESOLUTION)?;
         let known = RegionMap::new(&plan, &RegionOptions::default())?;
         let noisy = (0..DRAWINGS).map(|seed| (format!("{DRAWINGS} with noise"), 0.0, 1.0, Some(seed)));
-        let others = [(7.0, 1.0), (45.0, 1.0), (0.0, 2.0), (0.0, 0.5)];
+        let others = [(7.0, 1.0), (30.0, 1.0), (45.0, 1.0), (0.0, 2.0), (0.0, 0.5)];
         let others = others.map(|(degrees, factor): (f64, f64)| {
             let name =
                 if degrees > 0.0 { format!("turned by {degrees}°") } else { format!("cells × {factor}") };

@@ -1,11 +1,13 @@
-//! How probably a passage has a door: by its width, by the wall that it is in, and by what it parts.
+//! How probably a passage has a door: by its width, by the wall that it is in, by what it parts, and by leaves that stand open.
 
 use std::f64::consts::PI;
 
 use super::ground::Ground;
 use super::island::Islands;
+use super::leaf::Leaf;
 use super::options::DoorwayOptions;
 use crate::place::Gateway;
+use crate::skeleton::distance;
 
 /// Metres from one sample to the next.
 const STEP: f64 = 0.05;
@@ -22,12 +24,21 @@ pub(super) fn door_probability(
     islands: &mut Islands<'_>,
     options: &DoorwayOptions,
 ) -> f64 {
+    let leaves = leaves_in(gateway, ground, options);
     let odds = options.base
         + options.room * (narrower / options.room_width).min(1.0).ln()
         + options.wall * wall_beside(gateway, ground, options)
         + options.free_standing * islands.smaller(gateway.line).ln()
-        - options.excess * (gateway.width - options.widest_leaf).max(0.0);
+        + if leaves > 0.0 { options.leaf } else { 0.0 }
+        - options.excess * (gateway.width - leaves.max(options.widest_leaf)).max(0.0);
     1.0 / (1.0 + (-odds).exp())
+}
+
+/// How long the leaves are together that stand open in a gateway: they hang at its ends, and would close it. 0 if there are none.
+fn leaves_in(gateway: &Gateway, ground: &Ground, options: &DoorwayOptions) -> f64 {
+    let hangs = |leaf: &&Leaf| gateway.line.into_iter().any(|end| distance(end, leaf.hinge) <= options.hinge);
+    let lengths: f64 = ground.leaves().iter().filter(hangs).map(Leaf::length).sum();
+    if (lengths - gateway.width).abs() <= options.leaf_fits * gateway.width { lengths } else { 0.0 }
 }
 
 /// The part of the line beyond an end of the gateway that is wall, at the end where it is more.

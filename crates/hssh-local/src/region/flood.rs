@@ -14,6 +14,9 @@ pub(super) const NO_PIECE: u32 = u32::MAX;
 /// Ranks per cell of distance by which cells are ordered.
 const RANKS: f64 = 4.0;
 
+/// From this squared distance on, ranks are calculated for each cell.
+const SHORT: u32 = 1 << 12;
+
 /// Which piece each cell is in.
 pub(super) struct Pieces {
     /// By cell, in row-major order.
@@ -129,7 +132,13 @@ fn numbered(mut labels: Vec<u32>, mut basins: Basins, joining: Joining) -> Piece
 /// The cells that have clearance, those with the most first, then in row-major order (a counting sort).
 fn widest_first(field: &DistanceField) -> Vec<u32> {
     let cells = || (0..field.lattice().len()).filter(|&index| field.is_free_at(index));
-    let rank = |index: usize| (RANKS * f64::from(field.squared_at(index)).sqrt()) as usize;
+    let rank_of = |squared: u32| (RANKS * f64::from(squared).sqrt()) as usize;
+    // Most distances are short, and a table is faster than a root.
+    let short: Vec<usize> = (0..SHORT).map(rank_of).collect();
+    let rank = |index: usize| {
+        let squared = field.squared_at(index);
+        short.get(squared as usize).copied().unwrap_or_else(|| rank_of(squared))
+    };
     let mut starts: Vec<usize> = Vec::new();
     for index in cells() {
         let rank = rank(index);

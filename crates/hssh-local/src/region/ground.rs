@@ -1,9 +1,13 @@
 //! The ground that regions are made of: the grid with what is certainly wall told from what was never seen.
 
+use rustc_hash::FxHashSet;
+
 use super::bits::Bits;
+use super::kind::End;
+use super::leaf::{self, Leaf};
 use super::options::RegionOptions;
 use crate::distance::DistanceField;
-use crate::grid::{Cell, Occupancy, OccupancyGrid};
+use crate::grid::{Cell, Lattice, Occupancy, OccupancyGrid};
 use crate::skeleton::{SkeletonOptions, UnknownSpace, clear_field};
 
 /// In a map that is not complete, thin unknown space is the face of a wall if there is wall no farther than this, in metres.
@@ -11,16 +15,31 @@ const FACE: f64 = 0.1;
 
 /// What regions are made of.
 pub(super) struct Ground {
-    /// With rims settled.
+    /// With rims settled, and without leaves of doors.
     grid: OccupancyGrid,
     /// Without furniture.
     field: DistanceField,
     unknown: UnknownSpace,
+    /// The outermost cells, by their indices, that are wall only because the map ends there.
+    open_edge: FxHashSet<usize>,
+    leaves: Vec<Leaf>,
 }
 
 impl Ground {
-    pub(super) fn new(grid: &OccupancyGrid, options: &RegionOptions) -> Self {
-        let grid = settled(grid, options);
+    pub(super) fn new(drawn: &OccupancyGrid, options: &RegionOptions) -> Self {
+        let mut grid = settled(drawn, options);
+        let is_open = |&index: &usize| {
+            drawn.cells()[index] == Occupancy::Free && grid.cells()[index] != Occupancy::Free
+        };
+        let open_edge =
+            edge(drawn.lattice()).map(|cell| drawn.lattice().index(cell)).filter(is_open).collect();
+        let is_obstacle = |index: usize| match grid.cells()[index] {
+            Occupancy::Free => false,
+            Occupancy::Occupied => true,
+            Occupancy::Unknown => options.unknown != UnknownSpace::Free,
+        };
+        let (leaves, covered) = leaf::leaves(grid.lattice(), is_obstacle, &options.leaf);
+        covered.into_iter().for_each(|cell| grid.set(cell, Occupancy::Free));
         let clearing = SkeletonOptions {
             unknown: options.unknown,
             clutter: options.furniture,
@@ -29,12 +48,17 @@ impl Ground {
             ..SkeletonOptions::default()
         };
         let field = clear_field(&grid, &clearing);
-        Ground { grid, field, unknown: options.unknown }
+        Ground { grid, field, unknown: options.unknown, open_edge, leaves }
     }
 
     /// How far each cell is from what no robot can go through.
     pub(super) fn field(&self) -> &DistanceField {
         &self.field
+    }
+
+    /// The leaves of doors that stand open.
+    pub(super) fn leaves(&self) -> &[Leaf] {
+        &self.leaves
     }
 
     /// Whether no robot can be in the cell with an index.
@@ -50,6 +74,21 @@ impl Ground {
     /// Whether the cell with an index is wall, or anything else that stands there for certain.
     pub(super) fn is_wall(&self, index: usize) -> bool {
         self.is_obstacle(index) && (self.is_all_wall() || self.grid.cells()[index] == Occupancy::Occupied)
+    }
+
+    /// Whether the map ends anywhere where it is free, and that is taken for wall.
+    pub(super) fn has_open_edge(&self) -> bool {
+        !self.open_edge.is_empty()
+    }
+
+    /// Whether the cell with an index is wall, and not merely where the map ends.
+    pub(super) fn is_seen_wall(&self, index: usize) -> bool {
+        self.is_wall(index) && !self.open_edge.contains(&index)
+    }
+
+    /// What there is where a region has no wall.
+    pub(super) fn end(&self) -> End {
+        if self.is_all_wall() { End::OfMap } else { End::Unseen }
     }
 
     /// Whether there is wall at a point in metres; there is beyond the map, unless it is unexplored.
@@ -69,13 +108,17 @@ fn settled(grid: &OccupancyGrid, options: &RegionOptions) -> OccupancyGrid {
     } else {
         // Nothing is known beyond the map.
         let mut settled = without_rims(grid, options.rim);
-        let lattice = *grid.lattice();
-        let [last_column, last_row] = [lattice.width() - 1, lattice.height() - 1];
-        let columns = (0..lattice.width()).flat_map(|column| [(column, 0), (column, last_row)]);
-        let rows = (0..lattice.height()).flat_map(|row| [(0, row), (last_column, row)]);
-        columns.chain(rows).for_each(|(column, row)| settled.set(Cell { column, row }, Occupancy::Occupied));
+        edge(grid.lattice()).for_each(|cell| settled.set(cell, Occupancy::Occupied));
         settled
     }
+}
+
+/// The outermost cells; those in the corners twice.
+fn edge(lattice: &Lattice) -> impl Iterator<Item = Cell> + use<> {
+    let (width, height) = (lattice.width(), lattice.height());
+    let columns = (0..width).flat_map(move |column| [(column, 0), (column, height - 1)]);
+    let rows = (0..height).flat_map(move |row| [(0, row), (width - 1, row)]);
+    columns.chain(rows).map(|(column, row)| Cell { column, row })
 }
 
 /// The grid of which unknown space that is thinner than so many metres, between what is known, is wall: drawings have gray

@@ -26,6 +26,8 @@ pub enum RegionKind {
     Hall,
     /// Between two rooms, and hardly larger than the wall is thick.
     Doorway,
+    /// Bounded by the end of the map more than by walls: what lies around a building, or the paper that it is drawn on.
+    Outside,
     /// Much of its rim was never seen, so that it is not known what it is.
     Unexplored,
 }
@@ -39,6 +41,7 @@ impl RegionKind {
             RegionKind::Corridor => "corridor",
             RegionKind::Hall => "hall",
             RegionKind::Doorway => "doorway",
+            RegionKind::Outside => "outside",
             RegionKind::Unexplored => "unexplored",
         }
     }
@@ -53,17 +56,29 @@ pub struct Region {
     pub area: f64,
     /// How wide it is, in metres: four times the mean clearance, which of a long corridor is its width.
     pub width: f64,
-    /// The part of its rim that is wall; the rest was never looked at. 1 unless unknown space is
-    /// [`UnknownSpace::Unexplored`](crate::skeleton::UnknownSpace::Unexplored).
+    /// The part of its rim that is wall. The rest was never looked at, if unknown space is
+    /// [`UnknownSpace::Unexplored`](crate::skeleton::UnknownSpace::Unexplored), or the map ends there.
     pub explored: f64,
 }
 
+/// What the rim of a region is where it is no wall.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(super) enum End {
+    /// Nobody looked there.
+    Unseen,
+    /// The map ends there.
+    OfMap,
+}
+
 impl Region {
-    pub(super) fn new(extent: Extent, explored: f64, options: &KindOptions) -> Self {
+    /// A region of that size, of the rim of which a part is wall; `ends` is what the rest is.
+    pub(super) fn new(extent: Extent, explored: f64, ends: End, options: &KindOptions) -> Self {
         let (area, width) = (extent.area, extent.width());
         let is_long = area >= options.elongation * width * width;
-        let kind = if explored < options.explored {
+        let kind = if ends == End::Unseen && explored < options.explored {
             RegionKind::Unexplored
+        } else if ends == End::OfMap && explored < options.inside {
+            RegionKind::Outside
         } else if area <= options.doorway {
             RegionKind::Doorway
         } else if is_long && width <= options.widest_corridor {

@@ -7,10 +7,13 @@
 mod bits;
 mod border;
 mod door;
+#[cfg(test)]
+mod drawing_tests;
 mod flood;
 mod ground;
 mod island;
 mod kind;
+mod leaf;
 mod merge;
 mod options;
 mod outline;
@@ -23,7 +26,7 @@ mod tests;
 
 pub use ground::without_rims;
 pub use kind::{Region, RegionKind, RegionNumber};
-pub use options::{CutOptions, DoorwayOptions, KindOptions, RegionOptions};
+pub use options::{CutOptions, DoorwayOptions, KindOptions, LeafOptions, RegionOptions};
 pub use outline::Outline;
 pub use passage::Passage;
 pub use region_map::RegionMap;

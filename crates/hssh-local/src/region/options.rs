@@ -28,6 +28,8 @@ pub struct RegionOptions {
     pub thickest_wall: f64,
     /// What a cut costs and is worth.
     pub cut: CutOptions,
+    /// What leaves of doors that stand open look like.
+    pub leaf: LeafOptions,
     /// What makes a passage a door.
     pub door: DoorwayOptions,
     /// What kinds of regions there are.
@@ -63,6 +65,21 @@ pub struct CutOptions {
     pub free_standing: f64,
 }
 
+/// What leaves look like that stand open.
+#[derive(Clone, Copy, PartialEq, Debug, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct LeafOptions {
+    /// They are no shorter than this. Default: 0.55 m.
+    pub shortest: f64,
+    /// They are no longer than this. Default: 1.3 m.
+    pub longest: f64,
+    /// The opening is wider or narrower than the leaves that close it by no more than this part of it, and by no more than
+    /// one and a half cells more. Default: 0.12.
+    pub fits: f64,
+    /// They hang no farther from the wall than this. Default: 0.2 m.
+    pub apart: f64,
+}
+
 /// How probably a passage has a door: the logarithm of the odds is a sum of what is measured, each times a weight.
 #[derive(Clone, Copy, PartialEq, Debug, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
@@ -87,6 +104,12 @@ pub struct DoorwayOptions {
     pub excess: f64,
     /// The widest leaf that is usual. Default: 0.95 m.
     pub widest_leaf: f64,
+    /// The weight of leaves that stand open in it. Default: 1.
+    pub leaf: f64,
+    /// They hang no farther from the ends of the passage than this. Default: 0.35 m.
+    pub hinge: f64,
+    /// They are together longer or shorter than the passage is wide by no more than this part of it. Default: 0.25.
+    pub leaf_fits: f64,
 }
 
 /// What tells the kinds of regions apart.
@@ -106,6 +129,8 @@ pub struct KindOptions {
     pub narrowest_closed: f64,
     /// Of less than this part of the rim seen, nothing is told. Default: 0.6.
     pub explored: f64,
+    /// Where less than this part of the rim is wall, and the map ends at the rest, it is outside. Default: 0.5.
+    pub inside: f64,
 }
 
 impl Default for RegionOptions {
@@ -120,6 +145,7 @@ impl Default for RegionOptions {
             as_wide: 0.9,
             thickest_wall: 0.5,
             cut: CutOptions::default(),
+            leaf: LeafOptions::default(),
             door: DoorwayOptions::default(),
             kind: KindOptions::default(),
         }
@@ -142,6 +168,12 @@ impl Default for CutOptions {
     }
 }
 
+impl Default for LeafOptions {
+    fn default() -> Self {
+        LeafOptions { shortest: 0.55, longest: 1.3, fits: 0.12, apart: 0.2 }
+    }
+}
+
 impl Default for DoorwayOptions {
     fn default() -> Self {
         DoorwayOptions {
@@ -154,6 +186,9 @@ impl Default for DoorwayOptions {
             free_standing: 3.2,
             excess: 16.0,
             widest_leaf: 0.95,
+            leaf: 1.0,
+            hinge: 0.35,
+            leaf_fits: 0.25,
         }
     }
 }
@@ -167,6 +202,7 @@ impl Default for KindOptions {
             hall: 80.0,
             narrowest_closed: 1.2,
             explored: 0.6,
+            inside: 0.5,
         }
     }
 }

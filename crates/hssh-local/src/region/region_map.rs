@@ -4,12 +4,13 @@ use super::border::{self, Border, Gap, Pair};
 use super::flood::{self, Joining, NO_PIECE, Pieces};
 use super::ground::Ground;
 use super::island::Islands;
-use super::kind::{Region, RegionNumber};
+use super::kind::{Region, RegionKind, RegionNumber};
 use super::merge::{self, Extent, Merged};
 use super::options::RegionOptions;
 use super::outline::{self, Outline};
 use super::passage::{self, Passage};
 use super::{door, rim};
+use crate::disjoint_sets::DisjointSets;
 use crate::distance::DistanceField;
 use crate::grid::{Cell, Lattice, OccupancyGrid};
 use crate::place::PlaceGraphError;
@@ -49,23 +50,24 @@ impl RegionMap {
             passable.map(move |gap| (pair, gap)).collect::<Vec<_>>()
         };
         let gaps: Vec<(Pair, Gap)> = borders.iter().flat_map(gaps).collect();
-        let is_kept = kept(&pieces, &region_of, &gaps, field, options);
-        let mut numbers = vec![NO_PIECE; extents.len()];
-        let mut count = 0;
-        for piece in (0..extents.len()).filter(|&piece| region_of[piece] == piece as u32 && is_kept[piece]) {
-            numbers[piece] = count;
-            count += 1;
-        }
         let mut labels = pieces.labels;
+        let explored = rim::explored(&labels, &region_of, &ground, options.narrowest);
+        let all: Vec<Region> = extents
+            .iter()
+            .zip(explored)
+            .map(|(&extent, explored)| Region::new(extent, explored, ground.end(), &options.kind))
+            .collect();
+        let is_kept = kept(&pieces.widest, &region_of, &gaps, &all, field, options);
+        let mut numbers = vec![NO_PIECE; extents.len()];
+        let mut regions = Vec::new();
+        for (piece, region) in all.into_iter().enumerate().filter(|&(piece, _)| is_kept[piece]) {
+            numbers[piece] = regions.len() as u32;
+            regions.push(region);
+        }
         for label in labels.iter_mut().filter(|label| **label != NO_PIECE) {
             *label = numbers[region_of[*label as usize] as usize];
         }
-        let explored = rim::explored(&labels, count as usize, &ground, options.narrowest);
-        let extents = numbers.iter().zip(&extents).filter(|(number, _)| **number != NO_PIECE);
-        let regions: Vec<Region> = extents
-            .zip(explored)
-            .map(|((_, &extent), explored)| Region::new(extent, explored, &options.kind))
-            .collect();
+        let gaps: Vec<(Pair, Gap)> = gaps.into_iter().filter(|((a, _), _)| is_kept[*a as usize]).collect();
         let mut passage = |&((a, b), gap): &(Pair, Gap)| {
             let pair = [a, b].map(|piece| numbers[piece as usize]);
             let gateway = passage::gateway_of(&gap, pair, &labels, field);
@@ -126,11 +128,12 @@ fn is_any_as_wide(field: &DistanceField, radius: f64) -> bool {
 }
 
 /// Of the pieces that stand for a region, which are regions: they lead on, or are wide enough to be more than the inside of
-/// a thing.
+/// a thing; and they are no paper around a building.
 fn kept(
-    pieces: &Pieces,
+    widest: &[u32],
     region_of: &[u32],
     gaps: &[(Pair, Gap)],
+    regions: &[Region],
     field: &DistanceField,
     options: &RegionOptions,
 ) -> Vec<bool> {
@@ -138,10 +141,30 @@ fn kept(
     for &((a, b), _) in gaps {
         (is_kept[a as usize], is_kept[b as usize]) = (true, true);
     }
-    for (&cell, &region) in pieces.widest.iter().zip(region_of) {
+    for (&cell, &region) in widest.iter().zip(region_of) {
         is_kept[region as usize] |= 2.0 * field.clearance_at(cell as usize) >= options.kind.narrowest_closed;
     }
+    for (is_kept, is_paper) in is_kept.iter_mut().zip(paper(regions, gaps)) {
+        *is_kept &= !is_paper;
+    }
     is_kept
+}
+
+/// Which regions are outside with all that they lead to, beside a building that has passages inside.
+fn paper(regions: &[Region], gaps: &[(Pair, Gap)]) -> Vec<bool> {
+    let mut building = DisjointSets::singletons(regions.len());
+    for &((a, b), _) in gaps {
+        let [a, b] = [a, b].map(|region| building.representative(region));
+        building.join(a.max(b), a.min(b));
+    }
+    let mut has_inside = vec![false; regions.len()];
+    for (number, region) in (0..).zip(regions) {
+        has_inside[building.representative(number) as usize] |= region.kind != RegionKind::Outside;
+    }
+    let is_inside =
+        |region: u32, building: &mut DisjointSets| has_inside[building.representative(region) as usize];
+    let has_passages = gaps.iter().any(|&((a, _), _)| is_inside(a, &mut building));
+    (0..regions.len() as u32).map(|region| has_passages && !is_inside(region, &mut building)).collect()
 }
 
 /// How large the pieces are and how wide.

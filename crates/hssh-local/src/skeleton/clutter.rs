@@ -1,8 +1,9 @@
 //! Clutter: what stands free, is small, and is no part of a wall.
 
+use std::f64::consts::TAU;
 use std::ops::Range;
 
-use rustc_hash::FxHashMap;
+use rustc_hash::{FxHashMap, FxHashSet};
 
 use super::mask::Mask;
 use crate::disjoint_sets::DisjointSets;
@@ -10,16 +11,22 @@ use crate::grid::Cell;
 
 /// What is at least this many times as long as it is wide is a piece of a wall.
 const SLENDER: f64 = 4.0;
+/// Directions in which the walls are told apart that something lies between, ...
+const DIRECTIONS: usize = 24;
+/// ... which are opposite if the cosine of the angle between them is no greater: 150°.
+const OPPOSITE: f64 = -0.866;
 
 /// Takes out the clutter: connected groups of obstacles of at most `longest` cells along both axes that do not touch the
-/// border. Groups in a row, each no more than `apart` cells from the next, are no clutter if the row is longer: they are a
-/// wall that was seen in pieces.
+/// border. Groups in a row, each no more than `apart` cells from the next, are no clutter if the row is longer, or if it
+/// leads from one large obstacle to another: they are a wall that was seen in pieces.
 pub(super) fn remove_clutter(obstacles: &mut Mask, longest: u32, apart: u32) {
     let groups = small_groups(obstacles, longest);
     let mut clutter = obstacles.without_members();
     groups.iter().flatten().for_each(|&position| clutter.insert(position));
     for row in rows(&mut clutter, &groups, apart) {
-        if apart == 0 || !is_wall(&row, f64::from(longest), obstacles) {
+        let is_wall =
+            || is_long(&row, f64::from(longest), obstacles) || is_between_walls(&row, apart, obstacles);
+        if apart == 0 || !is_wall() {
             row.into_iter().for_each(|position| obstacles.remove(position));
         }
     }
@@ -120,14 +127,9 @@ fn rows(members: &mut Mask, groups: &[Vec<usize>], apart: u32) -> Vec<Vec<usize>
 }
 
 /// Whether cells are in a row that is longer than so many cells, and slender.
-fn is_wall(row: &[usize], longest: f64, mask: &Mask) -> bool {
-    let points = || {
-        row.iter()
-            .map(|&position| mask.cell(position))
-            .map(|cell| [f64::from(cell.column), f64::from(cell.row)])
-    };
-    let count = row.len() as f64;
-    let mean = points().fold([0.0; 2], |sum, [x, y]| [sum[0] + x / count, sum[1] + y / count]);
+fn is_long(row: &[usize], longest: f64, mask: &Mask) -> bool {
+    let points = || row.iter().map(|&position| point(position, mask));
+    let mean = middle(row, mask);
     let [xx, xy, yy] = points().fold([0.0; 3], |[xx, xy, yy], [x, y]| {
         let [x, y] = [x - mean[0], y - mean[1]];
         [xx + x * x, xy + x * y, yy + y * y]
@@ -141,4 +143,49 @@ fn is_wall(row: &[usize], longest: f64, mask: &Mask) -> bool {
     };
     let (length, width) = (extent([cos, sin]), extent([-sin, cos]));
     length > longest && length >= SLENDER * width
+}
+
+/// Whether cells that are no more than `apart` cells from the rest of the obstacles are so on both ends of a line along
+/// which they lie, and no farther from it than this.
+fn is_between_walls(row: &[usize], apart: u32, obstacles: &Mask) -> bool {
+    let own: FxHashSet<usize> = row.iter().copied().collect();
+    let middle = middle(row, obstacles);
+    let mut nearest: [Option<(f64, [f64; 2])>; DIRECTIONS] = [None; DIRECTIONS];
+    for &position in row {
+        for wall in obstacles.within(position, apart).filter(|wall| !own.contains(wall)) {
+            let [x, y] = point(wall, obstacles);
+            let away = [x - middle[0], y - middle[1]];
+            let far = away[0].hypot(away[1]);
+            let turn = away[1].atan2(away[0]).rem_euclid(TAU) / TAU;
+            let nearest = &mut nearest[(turn * DIRECTIONS as f64) as usize % DIRECTIONS];
+            if nearest.is_none_or(|(least, _)| far < least) {
+                *nearest = Some((far, away));
+            }
+        }
+    }
+    let is_along = |[ax, ay]: [f64; 2], [bx, by]: [f64; 2]| {
+        let (dx, dy) = (bx - ax, by - ay);
+        let length = dx.hypot(dy);
+        let is_opposite = ax * bx + ay * by <= OPPOSITE * ax.hypot(ay) * bx.hypot(by);
+        is_opposite
+            && row.iter().all(|&position| {
+                let [x, y] = point(position, obstacles);
+                let off = dx * (y - middle[1] - ay) - dy * (x - middle[0] - ax);
+                off.abs() <= f64::from(apart) * length
+            })
+    };
+    let ends: Vec<[f64; 2]> = nearest.into_iter().flatten().map(|(_, away)| away).collect();
+    ends.iter().enumerate().any(|(at, &one)| ends[at + 1..].iter().any(|&other| is_along(one, other)))
+}
+
+/// The middle of the cells at positions.
+fn middle(row: &[usize], mask: &Mask) -> [f64; 2] {
+    let count = row.len() as f64;
+    let points = row.iter().map(|&position| point(position, mask));
+    points.fold([0.0; 2], |sum, [x, y]| [sum[0] + x / count, sum[1] + y / count])
+}
+
+fn point(position: usize, mask: &Mask) -> [f64; 2] {
+    let cell = mask.cell(position);
+    [f64::from(cell.column), f64::from(cell.row)]
 }

@@ -8,7 +8,7 @@ use super::GatewayAccount;
 /// A region; metres in the frame of the map.
 #[derive(Clone, PartialEq, Debug, Serialize, Deserialize)]
 pub struct RegionAccount {
-    /// `room`, `corridor`, `hall` or `doorway`.
+    /// `room`, `corridor`, `hall` or `doorway`; `outside` if the end of the map bounds it more than walls.
     pub kind: String,
     /// What people call it, if that was said.
     #[serde(default, skip_serializing_if = "Option::is_none")]
