@@ -59,6 +59,7 @@ impl Errors {
                 }
                 // Neither tells of a return.
                 SurveyWarning::Lost { .. }
+                | SurveyWarning::Break { .. }
                 | SurveyWarning::NoOdometry
                 | SurveyWarning::OdometryStands { .. }
                 | SurveyWarning::ShortSighted { .. }

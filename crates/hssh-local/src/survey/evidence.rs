@@ -17,6 +17,8 @@ pub(super) const CONFIRMING: f64 = 8.0;
 const LEAST_TRAVEL: f64 = 15.0;
 /// A closure that counts less than this in the end is contradicted.
 pub(super) const BELIEVED: f64 = 0.5;
+/// So many returns may go unconfirmed however few are confirmed.
+const FEW_UNCONFIRMED: usize = 2;
 /// A return to where the robot was hardly expected or known is confirmed if it is one of so many.
 const CONFIRMED: usize = 4;
 /// Where the robot is known up to this standard deviation, in metres, it is where it seems to be.
@@ -113,9 +115,15 @@ pub(super) fn evidence(track: &Track, closed: &ClosedTrack) -> (Evidence, Vec<Su
         warnings.push(SurveyWarning::Contradicted { scan: closure.later + 1, earlier: closure.earlier + 1 });
     }
     for (later, earlier, known) in unconfirmed(track, &believed, &closed.alike.expected) {
-        let is_known = known.across <= WELL_KNOWN;
+        // Where the robot seems to be back more often than the laser shows that it is, the poses are wrong, rather than that nothing was seen.
+        let is_known =
+            known.across <= WELL_KNOWN && evidence.unconfirmed < evidence.returns.max(FEW_UNCONFIRMED);
         *if is_known { &mut evidence.unconfirmed } else { &mut evidence.adrift } += 1;
         warnings.push(SurveyWarning::Unconfirmed { scan: later + 1, earlier: earlier + 1 });
+    }
+    for scan in breaks(track, &believed) {
+        evidence.adrift += 1;
+        warnings.push(SurveyWarning::Break { scan: scan + 1 });
     }
     let possible = closed.alike.possible.iter().copied();
     let possible: Vec<(usize, usize)> =
@@ -125,6 +133,15 @@ pub(super) fn evidence(track: &Track, closed: &ClosedTrack) -> (Evidence, Vec<Su
         warnings.push(SurveyWarning::Possible { scan: later + 1, earlier: earlier + 1 });
     }
     (evidence, warnings)
+}
+
+/// The scans that lie on nothing that was seen before, the first of each row of them, after which the robot never came back to where it was
+/// before: it may have been carried, or its odometry begun anew, and nobody would see it.
+fn breaks(track: &Track, believed: &[Closure]) -> Vec<usize> {
+    let is_first = |scan: &usize| scan.checked_sub(1).is_none_or(|before| !track.lost.contains(&before));
+    let is_bridged =
+        |scan: usize| believed.iter().any(|closure| closure.earlier < scan && scan <= closure.later);
+    track.lost.iter().copied().filter(is_first).filter(|&scan| !is_bridged(scan)).collect()
 }
 
 /// Whether other closures show that the robot was back on that stretch: then it is in doubt how exactly, not whether.
@@ -314,6 +331,28 @@ mod tests {
         }
     }
 
+    /// Scan 50 lies on nothing. With a return from later on to what was before, it does not matter how the robot came there.
+    #[test]
+    fn where_a_scan_lies_on_nothing_the_way_is_broken_until_the_robot_comes_back() {
+        let broken = Track { lost: vec![50, 51, 90], ..around() };
+        let told = |closures: Vec<Closure>| {
+            let (found, warnings) = evidence(&broken, &closed(closures));
+            let is_break = |warning: &&SurveyWarning| matches!(warning, SurveyWarning::Break { .. });
+            (found.adrift, warnings.iter().filter(is_break).cloned().collect::<Vec<_>>())
+        };
+        let breaks = [51, 91].map(|scan| SurveyWarning::Break { scan });
+        assert_eq!(told(Vec::new()), (2, breaks.to_vec()));
+        assert_eq!(told(vec![closure((30.0, 150.0), 1.0)]), (1, breaks[..1].to_vec()));
+        assert_eq!(told(again(2, 60)), (0, vec![]));
+    }
+
+    /// Where the robot seems to be back and never is as the laser shows, it is rather elsewhere: two times may be chance.
+    #[test]
+    fn what_is_unconfirmed_more_often_than_not_is_adrift() {
+        let (found, warnings) = evidence(&around(), &closed(Vec::new()));
+        assert_eq!((found.unconfirmed, found.adrift), (2, warnings.len() - 2));
+    }
+
     /// Around a square of 30 m, and half of it again.
     fn around() -> Track {
         let corners =
@@ -350,7 +389,7 @@ mod tests {
     fn where_nothing_says_that_the_robot_is_back_it_is_said() {
         let (found, warnings) = evidence(&around(), &closed(Vec::new()));
         // 60 m twice, told every 15 m.
-        assert_eq!(counts(found), (0, 0, warnings.len()));
+        assert_eq!((found.returns, found.unconfirmed + found.adrift), (0, warnings.len()));
         assert!((4..=6).contains(&warnings.len()), "{warnings:?}");
         for warning in warnings {
             let SurveyWarning::Unconfirmed { scan, earlier } = warning else { panic!("{warning:?}") };
@@ -442,8 +481,12 @@ mod tests {
     fn what_can_be_slid_makes_nothing_uncertain() {
         let covariance = Covariance::from_standard_deviations(5.0, 0.1, 0.01).unwrap();
         let sliding = Closure { covariance, ..closure((5.0, 125.0), 1.0) };
-        let (found, _) = evidence(&around(), &closed(vec![sliding]));
-        assert!(found.unconfirmed >= 1 && found.adrift == 0, "{found:?}");
+        // So many that nothing is unconfirmed between them; and one.
+        let sliding =
+            [5.0, 21.0, 37.0, 53.0].map(|at| Closure { covariance, ..closure((at, at + 120.0), 1.0) });
+        let (found, _) = evidence(&around(), &closed(sliding.to_vec()));
+        assert!(found.adrift == 0, "{found:?}");
+        assert!(evidence(&around(), &closed(vec![sliding[0]])).0.unconfirmed == FEW_UNCONFIRMED);
     }
 
     #[test]
@@ -464,7 +507,8 @@ mod tests {
         let doubtful: Vec<Closure> =
             again(2, 60).into_iter().map(|closure| Closure { weight: 0.1, ..closure }).collect();
         let (found, _) = evidence(&around(), &closed(doubtful));
-        assert!(found.returns == 0 && found.contradicted == 1 && found.unconfirmed >= 4, "{found:?}");
+        assert!(found.returns == 0 && found.contradicted == 1, "{found:?}");
+        assert!(found.unconfirmed + found.adrift >= 4, "{found:?}");
     }
 
     #[test]
