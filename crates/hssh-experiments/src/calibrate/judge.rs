@@ -60,6 +60,7 @@ impl Errors {
                 // Neither tells of a return.
                 SurveyWarning::Lost { .. }
                 | SurveyWarning::Break { .. }
+                | SurveyWarning::Carried { .. }
                 | SurveyWarning::NoOdometry
                 | SurveyWarning::OdometryStands { .. }
                 | SurveyWarning::ShortSighted { .. }

@@ -17,6 +17,8 @@ const QUICKEST: f64 = 4.0;
 const UNEVEN: f64 = 4.0;
 /// No turn between two readings is a jump that is smaller, in radians.
 const LEAST_TURN: f64 = 1.2;
+/// Odometry that comes from farther away than this, in metres and radians, and is exactly where it counts from begins anew.
+const ANEW: f64 = 0.3;
 /// What is known of a step across a jump is as little as after so many metres of travel.
 const DETOUR: f64 = 8.0;
 
@@ -32,7 +34,7 @@ impl RawLog {
         for (index, &Moment { pose, at }) in raw.iter().enumerate() {
             if let Some(before) = index.checked_sub(1) {
                 let step = raw[before].pose.between(pose);
-                if is_jump(step, usual, seconds[index]) {
+                if begins_anew(step, pose) || is_jump(step, usual, seconds[index]) {
                     let (metres, turn) = (step.translation().norm(), step.theta);
                     warnings.push(LogWarning::Jump { at, metres, turn });
                     let here = self.trajectory.last().map_or(pose, |last| last.pose);
@@ -72,6 +74,11 @@ impl RawLog {
         }
         seconds
     }
+}
+
+/// Whether a step ends exactly where all odometry begins, however long it took: the recording was stopped and begun again.
+fn begins_anew(step: Pose, pose: Pose) -> bool {
+    pose == Pose::IDENTITY && step.translation().norm().max(step.theta.abs()) > ANEW
 }
 
 fn is_jump(step: Pose, usual: f64, seconds: Option<f64>) -> bool {

@@ -63,6 +63,15 @@ pub enum SurveyWarning {
         /// The scan, counted from 1.
         scan: usize,
     },
+    /// The same where the odometry jumps.
+    #[error(
+        "scan {scan} lies on nothing that was seen before, the odometry jumps there, and the robot never came back to where it had been: are these \
+         recordings of several places, or was the robot carried? how the parts of the log lie to one another is not known"
+    )]
+    Carried {
+        /// The scan, counted from 1.
+        scan: usize,
+    },
     /// Odometry that stands still.
     #[error("the log has no odometry: it stands still while the scans move, and scans alone lose their way")]
     NoOdometry,

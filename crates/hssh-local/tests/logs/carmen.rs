@@ -276,6 +276,32 @@ fn the_odometry_may_start_anew() {
     }
 }
 
+/// Between dense lines of odometry no robot goes metres, however long it is from scan to scan; and who is suddenly where all counting begins was
+/// not driven there, however long that took.
+#[test]
+fn odometry_that_begins_anew_nearby_is_a_jump() {
+    let lines = |scan: u32, x: f64| {
+        let odometry: String =
+            (0..20).map(|k| format!("ODOM {} 0 0 0 0 0 0 h 0\n", x + 0.025 * f64::from(k))).collect();
+        let end = x + 0.5;
+        format!("{odometry}FLASER 3 1 2 3 7 8 9 {end} 0 0 {} h 0\n", 3 * scan)
+    };
+    let dense: String =
+        (0..20).map(|scan| lines(scan, 0.5 * f64::from(scan) - if scan < 10 { 0.0 } else { 5.01 })).collect();
+    let jumps = |text: &str| {
+        let log = read(text).unwrap();
+        log.warnings.iter().filter(|warning| matches!(warning, LogWarning::Jump { .. })).count()
+    };
+    assert_eq!(jumps(&dense), 1);
+    let usual: String = (0..20).map(|scan| lines(scan, 0.5 * f64::from(scan))).collect();
+    assert_eq!(jumps(&usual), 0);
+    let mut poses = straight(20);
+    poses[4..].iter_mut().for_each(|pose| pose[0] -= 2.0);
+    assert_eq!(jumps(&drive("1 2 3", &poses)), 1);
+    poses[4..].iter_mut().for_each(|pose| pose[0] += 0.001);
+    assert_eq!(jumps(&drive("1 2 3", &poses)), 0, "it drove back");
+}
+
 /// What the user says of the laser's place counts more than the log.
 #[test]
 fn the_laser_sits_where_it_is_said_to() {

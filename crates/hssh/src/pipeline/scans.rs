@@ -110,6 +110,7 @@ pub(super) fn warn_of(found: &[SurveyWarning], log: &LaserLog, warnings: &mut Ve
             SurveyWarning::Unconfirmed { scan, .. }
             | SurveyWarning::Possible { scan, .. }
             | SurveyWarning::Break { scan } => (WarningKind::UnconfirmedReturn, scan),
+            SurveyWarning::Carried { scan } => (WarningKind::Lost, scan),
             SurveyWarning::Lost { first, .. } => (WarningKind::Lost, first),
             SurveyWarning::ShortSighted { .. } => (WarningKind::Questionable, 1),
             SurveyWarning::LaserTurned(_) | SurveyWarning::TurnedWithLaser(_) => (WarningKind::LaserPose, 1),
