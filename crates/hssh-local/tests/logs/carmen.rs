@@ -81,7 +81,7 @@ fn a_bad_message_is_left_out_with_line_and_word() {
             "line 7: FLASER left out: word 2, `-1`, is no number of beams between 1 and 100000",
         ),
         (
-            "FLASER 24 1 1 1 1 1 1 1 1 1 1 1 1 1 1 1 1 1 1 1 1 1 1 1 1 0 0 0 0 0 0 0 h 0\n",
+            "FLASER 24 1 1 1 1 1 1 1 1 1 1 1 1 1 1 1 1 1 1 1 1 1 1 1 1 0 0 0 1 0 0.1 0 h 0\n",
             "line 7: FLASER left out: the scan has 24 beams, but most scans have 3",
         ),
         ("ODOM 1e15 2 0\n", "line 7: ODOM left out: word 2, `1e15`, is no place where a robot may be"),
@@ -100,8 +100,11 @@ fn a_log_that_breaks_off_is_used_up_to_there() {
     let whole = gzip(&LOG.repeat(200));
     let log = LaserLog::read(&whole[..whole.len() / 2]).unwrap();
     assert!((1..400).contains(&log.scans.len()));
+    // Each of the 200 begins anew.
+    let others = log.warnings.iter().filter(|warning| !matches!(warning, LogWarning::Jump { .. }));
+    let others: Vec<&LogWarning> = others.collect();
     assert!(
-        matches!(log.warnings[..], [LogWarning::Remark { .. }, LogWarning::BreaksOff { .. }]),
+        matches!(others[..], [LogWarning::Remark { .. }, LogWarning::BreaksOff { .. }]),
         "{:?}",
         log.warnings
     );
@@ -180,7 +183,7 @@ fn every_scan_has_its_own_beams() {
     let wall = |step: f64, beams: usize| {
         (0..beams).map(|beam| format!("{} ", 2.0 + beam as f64 * step)).collect::<String>()
     };
-    let scans = [wall(0.5, 180), wall(0.5, 181), wall(1.0, 90), wall(0.25, 361), wall(0.5, 181)];
+    let scans = [wall(0.1, 180), wall(0.1, 181), wall(0.2, 90), wall(0.05, 361), wall(0.1, 181)];
     let text: String = scans
         .iter()
         .enumerate()
@@ -197,7 +200,7 @@ fn every_scan_has_its_own_beams() {
     for scan in &log.scans {
         for beam in 0..scan.scan.ranges.len() {
             let degrees = scan.scan.bearing(beam).to_degrees() + 90.0;
-            assert!((scan.scan.ranges[beam] - (2.0 + 0.5 * degrees)).abs() < 1e-9, "{degrees}");
+            assert!((scan.scan.ranges[beam] - (2.0 + 0.1 * degrees)).abs() < 1e-9, "{degrees}");
         }
     }
 }

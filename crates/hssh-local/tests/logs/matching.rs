@@ -74,17 +74,17 @@ fn who_drives_backward_goes_as_far_as_ahead() {
         let track = tracked(&walls, &poses);
         let gone = track.scans[poses.len() - 1].travelled;
         let truth = (poses[0].x - poses[poses.len() - 1].x).abs();
-        assert!((gone - truth).abs() < 0.015 * truth, "{gone} instead of {truth}");
+        assert!((gone - truth).abs() < 0.03 * truth, "{gone} instead of {truth}");
     }
 }
 
-/// After half a turn between two scans nothing is in sight that was before: how far the robot turned is known as well as odometry tells, and no better.
+/// After half a turn on the spot between two scans nothing is in sight that was before: how far the robot turned is known as well as odometry tells,
+/// and no better.
 #[test]
 fn what_was_never_in_sight_tells_nothing() {
-    let walls = around(&[[[-3.0, -2.0], [9.0, 2.0]], [[2.0, -6.0], [4.0, 2.0]]]);
+    let walls = around(&[[[-9.0, -2.0], [9.0, 2.0]], [[2.0, -6.0], [4.0, 2.0]]]);
     let heading = |step: u32| if step > 6 { std::f64::consts::PI } else { 0.0 };
-    let poses: Vec<Pose> =
-        (0..13).map(|step| Pose::new(0.4 * f64::from(step.min(6)), 0.0, heading(step))).collect();
+    let poses: Vec<Pose> = (0..13).map(|step| Pose::new(0.0, 0.0, heading(step))).collect();
     let track = tracked_by_exact_wheels(&walls, &poses);
     assert_eq!(track.lost, [7]);
     let turn = track.scans[7].step.expect("it is not the first");
