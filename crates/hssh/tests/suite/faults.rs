@@ -230,7 +230,7 @@ fn logs(ring: &str) -> Vec<Fault> {
             map,
             driven(ring, |[x, y, theta]| [x, y, -theta]),
             0,
-            "DOUBTFUL: the walls turn with the robot",
+            "DOUBTFUL: the odometry moves to the right",
         ),
         fault(
             "turns in degrees",
@@ -258,7 +258,7 @@ fn logs(ring: &str) -> Vec<Fault> {
         fault("odometry in kilometres", map, scaled(0.001), 0, "DOUBTFUL"),
         fault("wheels of twice the size", map, scaled(2.0), 0, "DOUBTFUL: the walls come toward"),
         fault("wheels of half the size", map, scaled(0.5), 0, "DOUBTFUL: the walls come toward"),
-        fault("odometry in millimetres", map, scaled(1000.0), 0, "DOUBTFUL: the odometry goes at"),
+        fault("odometry in millimetres", map, scaled(1000.0), 2, "is the odometry in metres and radians?"),
         fault("no odometry", map, driven(ring, |_| [0.0; 3]), 0, "DOUBTFUL: the log has no odometry"),
     ]
 }
