@@ -220,7 +220,7 @@ impl PyLog {
         let beams = self.log.beams();
         if let Some(odd) = self.log.scans.iter().position(|scan| scan.scan.ranges.len() != beams) {
             return Err(argument(format!(
-                "scan {odd} has {} beams, and scan 0 has {beams}: take the scans one by one",
+                "scan {odd} has {} beams, and most have {beams}: take the scans one by one",
                 self.log.scans[odd].scan.ranges.len()
             )));
         }

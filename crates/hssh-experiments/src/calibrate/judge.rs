@@ -59,6 +59,8 @@ impl Errors {
                 }
                 // Neither tells of a return.
                 SurveyWarning::Lost { .. }
+                | SurveyWarning::Break { .. }
+                | SurveyWarning::Carried { .. }
                 | SurveyWarning::NoOdometry
                 | SurveyWarning::OdometryStands { .. }
                 | SurveyWarning::ShortSighted { .. }

@@ -118,6 +118,8 @@ pub enum LogWarning {
     Facing {
         /// Where it seems to look, as seen from where it was taken to: radians, counterclockwise.
         seen: f64,
+        /// Whether it is taken to look there.
+        is_reckoned: bool,
     },
     /// The scans move farther, or less far, than the odometry does.
     OdometryScale {
@@ -162,7 +164,10 @@ pub enum LogWarning {
         expected: &'static str,
     },
     /// The scans turn with the robot instead of against it: their beams come in the other order.
-    Mirrored,
+    Mirrored {
+        /// Whether they are taken to.
+        is_reckoned: bool,
+    },
     /// The odometry goes to the other side than its heading turns.
     OtherHanded,
     /// Ranges scatter as those of no laser do.
@@ -217,7 +222,7 @@ impl LogWarning {
             | LogWarning::LaserPose { .. }
             | LogWarning::Facing { .. }
             | LogWarning::OdometryScale { .. }
-            | LogWarning::Mirrored
+            | LogWarning::Mirrored { .. }
             | LogWarning::OtherHanded
             | LogWarning::Noisy { .. }
             | LogWarning::OddParameter { .. }
@@ -245,7 +250,7 @@ impl LogWarning {
             | LogWarning::LaserPose { .. }
             | LogWarning::Facing { .. }
             | LogWarning::OdometryScale { .. }
-            | LogWarning::Mirrored
+            | LogWarning::Mirrored { .. }
             | LogWarning::OtherHanded
             | LogWarning::Noisy { .. }
             | LogWarning::ScansAlone
@@ -309,7 +314,13 @@ impl fmt::Display for LogWarning {
                 if *is_told { ", as it is said to" } else { ", as was taken for granted" },
                 seen.to_degrees()
             ),
-            LogWarning::Facing { seen } => write!(
+            LogWarning::Facing { seen, is_reckoned: true } => write!(
+                f,
+                "the walls move as if the laser were turned by about {:.0}° on the robot: that is reckoned with, and straight stretches show \
+                 no more of it; --laser-pose says how it sits",
+                seen.to_degrees()
+            ),
+            LogWarning::Facing { seen, is_reckoned: false } => write!(
                 f,
                 "the walls do not come toward the robot as it drives: they move as if the laser were turned by about {:.0}° \
                  from where it was taken to look; what is made of the log is wrong if it is (--laser-pose says so)",
@@ -328,10 +339,13 @@ impl fmt::Display for LogWarning {
                     ": are both in metres, and are the wheels as large as they are said to be? what is made of the log is wrong if not",
                 )
             }
-            LogWarning::Mirrored => f.write_str(
+            LogWarning::Mirrored { is_reckoned } => f.write_str(if *is_reckoned {
+                "the walls turn with the robot and not against it: the beams seem to come from left to right, as of a laser mounted upside down, \
+                 and were put in the usual order; if it is the odometry that turns the other way, what is made of the log is its mirror image"
+            } else {
                 "the walls turn with the robot and not against it: the beams seem to come from left to right, as of a laser \
-                 mounted upside down, or the odometry turns the other way; what is made of the log is wrong if so",
-            ),
+                 mounted upside down, or the odometry turns the other way; what is made of the log is wrong if so"
+            }),
             LogWarning::OtherHanded => f.write_str(
                 "the odometry moves to the right where its heading turns to the left, and the other way round: y is mirrored, or headings count \
                  clockwise; what is made of the log is wrong if so",

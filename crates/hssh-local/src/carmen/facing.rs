@@ -6,10 +6,10 @@
 
 use std::f64::consts::{PI, TAU};
 
-use hssh_metrics::Pose;
+use hssh_metrics::{Pose, wrap_angle};
 
 use super::error::LogWarning;
-use super::raw::{RawLog, RawScan};
+use super::raw::RawLog;
 
 /// Scans are compared between which the robot went that far, in metres…
 const STEPS: std::ops::Range<f64> = 0.5..1.5;
@@ -39,28 +39,58 @@ const CLEAR: f64 = 5.0;
 /// …and another than straight ahead has to leave no more than this part of what straight ahead leaves.
 const BETTER: f64 = 0.9;
 
+/// Where the laser was found to look.
+pub(super) struct Faced {
+    /// By how much the trajectory was turned with it.
+    pub(super) turn: Pose,
+    /// Whether there are straight steps, and ahead and back look alike along all of them.
+    pub(super) is_unclear: bool,
+}
+
 impl RawLog {
-    /// Warns if scans move as if the laser looked elsewhere than ahead, with that view and place of it on the robot. Returns
-    /// whether there are straight steps, and ahead and back look alike along all of them.
-    pub(super) fn check_facing(&self, view: f64, max_range: f64, warnings: &mut Vec<LogWarning>) -> bool {
+    /// Turns the trajectory with the laser if scans clearly move as if it looked elsewhere than is taken for granted, as if it was mounted
+    /// backward, and they clearly do so no more then. If that does not help, or somebody said how the laser sits, it is only warned of.
+    /// `geometry` is how each scan looks: view and turn in radians.
+    pub(super) fn face(
+        &mut self,
+        geometry: impl Fn(usize) -> (f64, f64),
+        max_range: f64,
+        is_given: bool,
+        warnings: &mut Vec<LogWarning>,
+    ) -> Faced {
+        let as_it_is = |is_unclear: bool| Faced { turn: Pose::IDENTITY, is_unclear };
+        let seen = match self.facing(&geometry, max_range) {
+            Facing::Ahead => return as_it_is(false),
+            Facing::Unknown => return as_it_is(true),
+            Facing::Elsewhere(seen) => seen,
+        };
+        let turn = Pose::new(0.0, 0.0, seen);
+        let mut turned = self.clone();
+        turned.trajectory.iter_mut().for_each(|moment| moment.pose = moment.pose.compose(turn));
+        let is_reckoned = !is_given && matches!(turned.facing(&geometry, max_range), Facing::Ahead);
+        warnings.push(LogWarning::Facing { seen, is_reckoned });
+        if !is_reckoned {
+            return as_it_is(false);
+        }
+        *self = turned;
+        Faced { turn, is_unclear: false }
+    }
+
+    fn facing(&self, geometry: impl Fn(usize) -> (f64, f64), max_range: f64) -> Facing {
         let steps = self.straight_steps();
         let chosen = steps.iter().step_by(steps.len().div_ceil(MOST_STEPS).max(1));
         let apart: Vec<[f64; TRIALS]> = chosen
             .filter_map(|&(one, other, step)| {
-                let [one, other] = [one, other].map(|scan| Sight::new(&scan.ranges, view, max_range));
+                let [one, other] =
+                    [one, other].map(|scan| Sight::new(&self.scans[scan].ranges, geometry(scan), max_range));
                 one.apart_by_facing(&other, step)
             })
             .collect();
-        let facing = if apart.len() < LEAST_STEPS { Facing::Ahead } else { facing(&apart) };
-        match facing {
-            Facing::Elsewhere(seen) => warnings.push(LogWarning::Facing { seen }),
-            Facing::Ahead | Facing::Unknown => {}
-        }
-        matches!(facing, Facing::Unknown)
+        if apart.len() < LEAST_STEPS { Facing::Ahead } else { facing(&apart) }
     }
 
     /// Scans between which the robot went straight on, and the step between them, none of which overlap.
-    fn straight_steps(&self) -> Vec<(&RawScan, &RawScan, Pose)> {
+    fn straight_steps(&self) -> Vec<(usize, usize, Pose)> {
         let mut steps = Vec::new();
         let mut index = 0;
         while let Some(one) = self.scans.get(index) {
@@ -68,11 +98,11 @@ impl RawLog {
             let mut straight = others.filter_map(|(behind, other)| {
                 let step = self.trajectory[one.moment].pose.between(self.trajectory[other.moment].pose);
                 let is_step = STEPS.contains(&step.translation().norm()) && step.theta.abs() < STRAIGHT;
-                is_step.then_some((behind, other, step))
+                is_step.then_some((behind, step))
             });
             index = match straight.next() {
-                Some((behind, other, step)) => {
-                    steps.push((one, other, step));
+                Some((behind, step)) => {
+                    steps.push((index, behind, step));
                     behind
                 }
                 None => index + 1,
@@ -82,22 +112,23 @@ impl RawLog {
     }
 }
 
-/// What a laser of some view saw, in its own frame.
+/// What a laser of some view saw, in a frame that is turned as the robot is.
 struct Sight {
     points: Vec<[f64; 2]>,
     half_view: f64,
+    turn: f64,
 }
 
 impl Sight {
-    fn new(ranges: &[f64], view: f64, max_range: f64) -> Self {
+    fn new(ranges: &[f64], (view, turn): (f64, f64), max_range: f64) -> Self {
         let steps = (ranges.len() - ranges.len() % 2).max(1) as f64;
         let beams = ranges.iter().enumerate().step_by(ranges.len().div_ceil(MOST_POINTS).max(1));
         let came_back = beams.filter(|(_, range)| **range > 0.0 && **range < max_range);
         let point = |(beam, range): (usize, &f64)| {
-            let (s, c) = (view * (beam as f64 / steps - 0.5)).sin_cos();
+            let (s, c) = (view * (beam as f64 / steps - 0.5) + turn).sin_cos();
             [range * c, range * s]
         };
-        Sight { points: came_back.map(point).collect(), half_view: 0.5 * view }
+        Sight { points: came_back.map(point).collect(), half_view: 0.5 * view, turn }
     }
 
     /// How far the points of these two are apart on average if the laser made that step, for each trial.
@@ -117,7 +148,7 @@ impl Sight {
     /// see: a laser that looks ahead sees the walls beside it for the last time, and would always fit ahead.
     fn apart(&self, other: &Sight, step: Pose) -> Option<f64> {
         let moved = other.points.iter().map(|&[x, y]| step.compose(Pose::new(x, y, 0.0)));
-        let seen = moved.filter(|at| at.y.atan2(at.x).abs() <= self.half_view);
+        let seen = moved.filter(|at| wrap_angle(at.y.atan2(at.x) - self.turn).abs() <= self.half_view);
         let nearest = seen.map(|at| {
             let squared = self.points.iter().map(|[x, y]| (x - at.x).powi(2) + (y - at.y).powi(2));
             squared.fold(MOST_APART * MOST_APART, f64::min).sqrt()

@@ -71,41 +71,45 @@ impl GrowingLog {
 
     fn made(self, is_whole: bool) -> Result<LaserLog, LogError> {
         let GrowingLog { mut raw, known, chosen, lines, mut warnings } = self;
+        let is_laser_given = known.pose.is_some();
         if raw.scans.is_empty() {
             return Err(raw.why_useless(lines, warnings));
         }
         let others = raw.choose(&chosen, &mut warnings)?;
-        raw.keep_usual_scans(&mut warnings);
+        raw.keep_scans_of_known_view(&mut warnings);
         raw.tell_odd_beams(&mut warnings);
-        let (view, turn, is_told) = raw.view(&known);
+        let (geometry, is_told) = raw.geometry(&known);
+        let looks = |scan: usize| geometry[scan];
+        let view = looks(0).0;
         if is_whole {
             let before = warnings.len();
+            raw.check_handed(&mut warnings);
             raw.check_view(view, is_told, &mut warnings);
             if warnings.len() == before {
                 raw.check_turns(view, &mut warnings);
             }
-            raw.check_handed(&mut warnings);
             raw.check_repeats(&mut warnings);
             raw.check_speed(&mut warnings);
             raw.check_order()?;
         }
         raw.drop_stray_lines(&mut warnings);
         let robot: Vec<Pose> = raw.scans.iter().map(|scan| raw.trajectory[scan.moment].pose).collect();
-        let mount = raw.move_to_laser(&known, &mut warnings);
+        let mut mount = raw.move_to_laser(&known, &mut warnings);
         raw.bridge_jumps(&mut warnings);
-        let max_range = raw.limit(|_| (view, turn), &mut warnings)?;
-        let is_facing_unclear = is_whole && raw.check_facing(view, max_range, &mut warnings);
+        let max_range = raw.limit(looks, &mut warnings)?;
+        let mut is_facing_unclear = false;
         if is_whole {
-            raw.check_pace(|_| (view, turn), max_range, &mut warnings);
-            raw.check_noise(|_| (view, turn), max_range, &mut warnings);
+            let facing = raw.face(looks, max_range, is_laser_given, &mut warnings);
+            is_facing_unclear = facing.is_unclear;
+            mount = mount.compose(facing.turn);
+            raw.check_pace(looks, max_range, &mut warnings);
+            raw.check_noise(looks, max_range, &mut warnings);
         }
         let others = others
             .into_iter()
             .map(|other| OtherLaser::new(other, &mut warnings))
             .collect::<Result<Vec<_>, _>>()?;
         warnings.sort_by_key(LogWarning::position);
-        let geometry = std::iter::repeat((view, turn));
-        let is_laser_given = known.pose.is_some();
         let log =
             LaserLog { is_facing_unclear, is_laser_given, ..raw.into_log(geometry, max_range, warnings) };
         Ok(if others.is_empty() { log } else { log.seen_around(&robot, mount, &others) })

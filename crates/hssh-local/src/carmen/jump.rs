@@ -7,14 +7,18 @@ use super::raw::{Moment, RawLog};
 
 /// No step between two readings is a jump that is shorter than this many metres…
 const LEAST: f64 = 2.0;
-/// …or than so many usual steps…
-const TIMES_USUAL: f64 = 20.0;
+/// …or than so many usual steps, where it is known how long they take and where it is not…
+const TIMES_USUAL: (f64, f64) = (4.0, 20.0);
 /// …or that a robot could have made in the time at this speed, in metres per second…
 const FASTEST: f64 = 4.0;
 /// …or, for turns, at this rate, in radians per second.
 const QUICKEST: f64 = 4.0;
+/// A step between two readings takes no longer than so many of the same stretch do on average.
+const UNEVEN: f64 = 4.0;
 /// No turn between two readings is a jump that is smaller, in radians.
 const LEAST_TURN: f64 = 1.2;
+/// Odometry that comes from farther away than this, in metres and radians, and is exactly where it counts from begins anew.
+const ANEW: f64 = 0.3;
 /// What is known of a step across a jump is as little as after so many metres of travel.
 const DETOUR: f64 = 8.0;
 
@@ -24,15 +28,13 @@ impl RawLog {
     pub(crate) fn bridge_jumps(&mut self, warnings: &mut Vec<LogWarning>) {
         let usual = self.usual_step();
         let raw = std::mem::take(&mut self.trajectory);
-        let times = self.times(raw.len());
+        let seconds = self.seconds(raw.len());
         let mut position = Vec::with_capacity(raw.len());
         let (mut moved, mut last_step) = (Pose::IDENTITY, Pose::IDENTITY);
         for (index, &Moment { pose, at }) in raw.iter().enumerate() {
             if let Some(before) = index.checked_sub(1) {
                 let step = raw[before].pose.between(pose);
-                let seconds =
-                    times[index].zip(times[before]).map(|([_, later], [earlier, _])| later - earlier);
-                if is_jump(step, usual, seconds) {
+                if begins_anew(step, pose) || is_jump(step, usual, seconds[index]) {
                     let (metres, turn) = (step.translation().norm(), step.theta);
                     warnings.push(LogWarning::Jump { at, metres, turn });
                     let here = self.trajectory.last().map_or(pose, |last| last.pose);
@@ -59,19 +61,24 @@ impl RawLog {
         steps.get(steps.len() / 2).copied().unwrap_or(0.0)
     }
 
-    /// For each reading, when the scan before it and the one behind it were taken, itself counted as both.
-    fn times(&self, readings: usize) -> Vec<Option<[f64; 2]>> {
-        let mut times = vec![None; readings];
+    /// For each step from one reading to the next, how long it took at most, in seconds: no longer than it is from scan to scan, and not much
+    /// longer than the readings between them have each.
+    fn seconds(&self, readings: usize) -> Vec<Option<f64>> {
+        let mut seconds = vec![None; readings];
         for pair in self.scans.windows(2) {
             if let (Some(from), Some(to)) = (pair[0].time, pair[1].time) {
-                times[pair[0].moment + 1..pair[1].moment].fill(Some([from, to]));
+                let steps = pair[1].moment - pair[0].moment;
+                let part = (UNEVEN / steps as f64).min(1.0);
+                seconds[pair[0].moment + 1..=pair[1].moment].fill(Some(part * (to - from)));
             }
         }
-        for scan in &self.scans {
-            times[scan.moment] = scan.time.map(|time| [time, time]);
-        }
-        times
+        seconds
     }
+}
+
+/// Whether a step ends exactly where all odometry begins, however long it took: the recording was stopped and begun again.
+fn begins_anew(step: Pose, pose: Pose) -> bool {
+    pose == Pose::IDENTITY && step.translation().norm().max(step.theta.abs()) > ANEW
 }
 
 fn is_jump(step: Pose, usual: f64, seconds: Option<f64>) -> bool {
@@ -79,7 +86,8 @@ fn is_jump(step: Pose, usual: f64, seconds: Option<f64>) -> bool {
     let seconds = seconds.filter(|&seconds| seconds > 0.0);
     let way = seconds.map_or(0.0, |seconds| FASTEST * seconds);
     let (far, turned) = (step.translation().norm(), step.theta.abs());
-    let is_far = far > LEAST.max(TIMES_USUAL * usual).max(way);
+    let times = if seconds.is_some() { TIMES_USUAL.0 } else { TIMES_USUAL.1 };
+    let is_far = far > LEAST.max(times * usual).max(way);
     let is_quick = seconds.is_some_and(|seconds| turned > LEAST_TURN + QUICKEST * seconds);
     is_far || is_quick
 }

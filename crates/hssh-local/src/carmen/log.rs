@@ -30,7 +30,7 @@ pub struct LoggedScan {
 /// What a log holds for a mapper.
 #[derive(Clone, PartialEq, Debug)]
 pub struct LaserLog {
-    /// The scans in order; at least one. Those of a text all have the same number of beams.
+    /// The scans in order; at least one. Each has its own beams.
     pub scans: Vec<LoggedScan>,
     /// All raw odometry of the laser in order, that of the scans included. Where it jumped, the jump is taken out, and a
     /// detour says how little is known of that step.
@@ -73,9 +73,13 @@ impl LaserLog {
         self
     }
 
-    /// Number of beams of a scan.
+    /// Number of beams of most scans.
     #[must_use]
     pub fn beams(&self) -> usize {
-        self.scans.first().map_or(0, |scan| scan.scan.ranges.len())
+        let mut counts: BTreeMap<usize, usize> = BTreeMap::new();
+        for logged in &self.scans {
+            *counts.entry(logged.scan.ranges.len()).or_default() += 1;
+        }
+        counts.into_iter().max_by_key(|&(beams, scans)| (scans, beams)).map_or(0, |(beams, _)| beams)
     }
 }

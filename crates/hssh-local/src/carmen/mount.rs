@@ -3,7 +3,7 @@
 use hssh_metrics::Pose;
 
 use super::error::LogWarning;
-use super::raw::RawLog;
+use super::raw::{RawLog, RawScan};
 
 /// The parameters that say it: metres ahead, metres to the left, radians.
 const PARAMETERS: [&str; 3] =
@@ -30,14 +30,17 @@ pub struct LaserMount {
 }
 
 impl RawLog {
-    /// How wide the laser looks and where the middle of its view is, in radians, and whether anybody says so.
-    pub(super) fn view(&self, known: &LaserMount) -> (f64, f64, bool) {
+    /// How each scan looks: how wide, and where the middle of its view is, in radians; and whether anybody says how wide.
+    pub(super) fn geometry(&self, known: &LaserMount) -> (Vec<(f64, f64)>, bool) {
         let said = self.parameter(VIEW).filter(|degrees| *degrees > 0.0 && *degrees <= 360.0);
-        let looks = self.scans.first().and_then(|scan| scan.looks);
-        let told = known.view.or(looks.map(|looks| looks.view)).or(said.map(f64::to_radians));
-        // A turn this small is what is lost of an angle in a text.
-        let turn = looks.map(|looks| looks.turn).filter(|turn| turn.abs() > 1e-3);
-        (told.unwrap_or(std::f64::consts::PI), turn.unwrap_or(0.0), told.is_some())
+        let told =
+            |scan: &RawScan| known.view.or(scan.looks.map(|looks| looks.view)).or(said.map(f64::to_radians));
+        let of_scan = |scan: &RawScan| {
+            // A turn this small is what is lost of an angle in a text.
+            let turn = scan.looks.map(|looks| looks.turn).filter(|turn| turn.abs() > 1e-3);
+            (told(scan).unwrap_or(std::f64::consts::PI), turn.unwrap_or(0.0))
+        };
+        (self.scans.iter().map(of_scan).collect(), self.scans.first().and_then(told).is_some())
     }
 
     /// Makes the trajectory that of the laser, from which all ranges are measured, and says where it sits on the robot.
@@ -106,7 +109,7 @@ impl RawLog {
     /// In a log that nobody corrected, the first pose of a scan is the laser's and the second the robot's, and one is
     /// always the same seen from the other.
     fn told_by_poses(&self) -> Option<Pose> {
-        let seen = |scan: &super::raw::RawScan| self.trajectory[scan.moment].pose.between(scan.corrected);
+        let seen = |scan: &RawScan| self.trajectory[scan.moment].pose.between(scan.corrected);
         let first = self.scans.first().map(seen)?;
         let is_same = |pose: Pose| {
             let off = first.between(pose);

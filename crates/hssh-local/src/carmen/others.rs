@@ -68,9 +68,9 @@ impl OtherLaser {
     /// # Errors
     /// If hardly a beam of it came back.
     pub(super) fn new(mut raw: RawLog, warnings: &mut Vec<LogWarning>) -> Result<Self, LogError> {
-        raw.keep_usual_scans(warnings);
+        raw.keep_scans_of_known_view(warnings);
         raw.tell_odd_beams(warnings);
-        let (view, turn, _) = raw.view(&LaserMount::default());
+        let (geometry, _) = raw.geometry(&LaserMount::default());
         let robot: Vec<Pose> = raw.scans.iter().map(|scan| raw.trajectory[scan.moment].pose).collect();
         let mount = raw.move_to_laser(&LaserMount::default(), &mut Vec::new());
         if let Some(first) = raw.scans.first() {
@@ -83,8 +83,8 @@ impl OtherLaser {
             );
             warnings.push(LogWarning::Remark { text, is_loss: false });
         }
-        let max_range = raw.limit(|_| (view, turn), warnings)?;
-        let log = raw.into_log(std::iter::repeat((view, turn)), max_range, Vec::new());
+        let max_range = raw.limit(|scan| geometry[scan], warnings)?;
+        let log = raw.into_log(geometry, max_range, Vec::new());
         let sweep = |(logged, robot): (LoggedScan, Pose)| Sweep {
             scan: logged.scan,
             robot,

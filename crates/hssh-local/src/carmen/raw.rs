@@ -119,17 +119,26 @@ impl RawLog {
         self.trajectory = kept.map(|(_, moment)| moment).collect();
     }
 
-    /// Leaves out scans with another number of beams than most.
-    pub(super) fn keep_usual_scans(&mut self, warnings: &mut Vec<LogWarning>) {
+    /// Leaves out scans of which it is not known how wide they look: those that do not say so, and have neither so many times as many steps
+    /// between their beams as most nor such a part of them. Who switches from 180 beams to 181 or 361 looks as wide as before.
+    pub(super) fn keep_scans_of_known_view(&mut self, warnings: &mut Vec<LogWarning>) {
+        /// So many times as many steps at most.
+        const MOST_TIMES: usize = 8;
+        let steps = |beams: usize| (beams - beams % 2).max(1);
         let mut counts: BTreeMap<usize, usize> = BTreeMap::new();
         for scan in &self.scans {
             *counts.entry(scan.ranges.len()).or_default() += 1;
         }
         let usual = counts.iter().max_by_key(|&(beams, scans)| (scans, beams));
         let expected = usual.map_or(0, |(&beams, _)| beams);
+        let is_alike = |beams: usize| {
+            let (fewer, more) = (steps(beams.min(expected)), steps(beams.max(expected)));
+            more % fewer == 0 && more / fewer <= MOST_TIMES
+        };
         self.scans.retain(|scan| {
             let found = scan.ranges.len();
-            if found != expected {
+            let is_known = scan.looks.is_some() || is_alike(found);
+            if !is_known {
                 let problem = MessageProblem::OtherBeamCount { found, expected };
                 warnings.push(LogWarning::Message {
                     at: scan.at,
@@ -137,7 +146,7 @@ impl RawLog {
                     problem,
                 });
             }
-            found == expected
+            is_known
         });
     }
 

@@ -28,12 +28,13 @@ impl RawLog {
         if self.trajectory.iter().all(|moment| moment.pose == first) {
             return;
         }
-        let beams = self.scans.first().map_or(0, |scan| scan.ranges.len());
-        let thinned = beams.div_ceil(MOST_BEAMS).max(1);
-        let step = thinned as f64 * view / (beams - beams % 2).max(1) as f64;
-        let some = |scan: &RawScan| scan.ranges.iter().step_by(thinned).copied().collect::<Vec<f64>>();
         let turn = |first: usize| {
-            let (one, ranges) = (&self.scans[first], some(&self.scans[first]));
+            let one = &self.scans[first];
+            let beams = one.ranges.len();
+            let thinned = beams.div_ceil(MOST_BEAMS).max(1);
+            let step = thinned as f64 * view / (beams - beams % 2).max(1) as f64;
+            let some = |scan: &RawScan| scan.ranges.iter().step_by(thinned).copied().collect::<Vec<f64>>();
+            let ranges = some(one);
             let others = self.scans[first + 1..].iter().take(WITHIN);
             let mut seen = others.filter_map(|other| Some((other, step * shift(&ranges, &some(other))?)));
             let (other, seen) = seen.find(|(_, seen)| seen.abs() >= LEAST_TURN)?;

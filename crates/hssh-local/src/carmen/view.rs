@@ -22,13 +22,18 @@ const CLEAR: f64 = 0.4;
 const DOUBTFUL: f64 = 1.25;
 
 impl RawLog {
-    /// Warns if scans turn otherwise than the odometry, with that view in radians.
-    pub(super) fn check_view(&self, view: f64, is_told: bool, warnings: &mut Vec<LogWarning>) {
+    /// Warns if scans turn otherwise than the odometry, with that view in radians. Where they turn the other way, as those of a laser that is
+    /// mounted upside down, their beams are put in the usual order; unless the odometry is known to be the one that is mirrored.
+    pub(super) fn check_view(&mut self, view: f64, is_told: bool, warnings: &mut Vec<LogWarning>) {
         let Some(scale) = self.scale_of_turns() else { return };
         if scale < 0.0 {
-            warnings.push(LogWarning::Mirrored);
-            return;
+            let is_reckoned = !warnings.contains(&LogWarning::OtherHanded);
+            warnings.push(LogWarning::Mirrored { is_reckoned });
+            if is_reckoned {
+                self.scans.iter_mut().for_each(|scan| scan.ranges.reverse());
+            }
         }
+        let scale = scale.abs();
         if !(1.0 / DOUBTFUL..DOUBTFUL).contains(&(scale / view)) {
             warnings.push(LogWarning::View { view, seen: scale.min(std::f64::consts::TAU), is_told });
         }
@@ -36,8 +41,6 @@ impl RawLog {
 
     /// The view with which the scans turn as the odometry does, negative if they turn the other way: the middle one of what pairs of scans say.
     fn scale_of_turns(&self) -> Option<f64> {
-        let beams = self.scans.first()?.ranges.len();
-        let steps = (beams - beams % 2) as f64;
         let turn = |one: &RawScan, other: &RawScan| {
             let step = self.trajectory[one.moment].pose.between(self.trajectory[other.moment].pose);
             let is_turn = TURNS.contains(&step.theta.abs()) && step.translation().norm() <= STANDS;
@@ -52,7 +55,8 @@ impl RawLog {
         let mut views: Vec<f64> = chosen
             .filter_map(|(one, other, turn)| {
                 let shift = shift(&one.ranges, &other.ranges)?;
-                Some(turn / shift * steps)
+                let beams = one.ranges.len();
+                Some(turn / shift * (beams - beams % 2) as f64)
             })
             .collect();
         views.sort_by(f64::total_cmp);
@@ -60,9 +64,13 @@ impl RawLog {
     }
 }
 
-/// By how many beams the second scan is turned to the left of the first, if that is clear and more than a few.
+/// By how many beams the second scan is turned to the left of the first, if that is clear and more than a few. Of scans with unequal numbers
+/// of beams that is not asked.
 pub(super) fn shift(first: &[f64], second: &[f64]) -> Option<f64> {
     const FEW: i64 = 4;
+    if first.len() != second.len() {
+        return None;
+    }
     let beams = first.len() as i64;
     let apart = |shift: i64| {
         let overlap = 0.max(-shift)..beams.min(beams - shift);

@@ -9,6 +9,7 @@ mod good_odometry;
 mod growing;
 mod motion;
 mod options;
+mod outlook;
 mod scans_alone;
 mod track;
 mod turned;

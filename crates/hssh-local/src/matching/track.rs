@@ -8,12 +8,17 @@ use super::align::align;
 use super::cloud::{Cloud, SurfacePoint, filled, surfaces};
 use super::correlate::{LikelihoodField, search};
 use super::options::MatchOptions;
+use super::outlook::Outlook;
 use crate::carmen::LaserLog;
 use crate::progress::Reply;
 use crate::scan::Scan;
 
 /// Of a scan that lies on nothing the hits' mean log-likelihood is below this, in nats: 0 is perfect, −3 hits nothing.
 const LOST: f64 = -1.2;
+/// A scan of which less than this part may have been seen before, as after half a turn at once, tells its pose no better than odometry does, and
+/// lies on nothing that was seen, as if its hits fitted so well.
+const LEAST_KNOWN: f64 = 0.1;
+const OFF_ALL: f64 = -3.0;
 /// The odometry of a step is taken for worse than believed if the hits' mean log-likelihood is below this…
 const SUSPICION: f64 = -0.3;
 /// …and worse odometry fits better by so many nats.
@@ -70,9 +75,9 @@ impl Track {
 
 /// A scan that later ones are matched against.
 struct Keyframe {
-    pose: Pose,
     travelled: f64,
     surfaces: Vec<SurfacePoint>,
+    outlook: Outlook,
 }
 
 /// What a scan is matched against: the surfaces seen from the keyframes of the last few metres.
@@ -85,7 +90,7 @@ impl Reference {
     fn new<'a>(keyframes: impl Iterator<Item = &'a Keyframe>, center: Pose, options: &MatchOptions) -> Self {
         let mut cloud = Cloud::default();
         for keyframe in keyframes {
-            cloud.insert(keyframe.pose, &keyframe.surfaces, options.spacing / 2.0);
+            cloud.insert(keyframe.outlook.pose(), &keyframe.surfaces, options.spacing / 2.0);
         }
         let field = LikelihoodField::new(&cloud, center.translation(), options.reach.min(COARSE_REACH));
         Reference { cloud, field }
@@ -93,6 +98,7 @@ impl Reference {
 }
 
 /// What a scan shows, in the robot's frame.
+#[derive(Clone)]
 struct Seen {
     /// All surfaces: far ones hold the heading.
     all: Vec<SurfacePoint>,
@@ -108,6 +114,22 @@ impl Seen {
         }
         let near = all.iter().filter(|surface| surface.position.norm() < COARSE_REACH).copied().collect();
         Seen { all, near }
+    }
+
+    /// Those near enough for the coarse search that scans before may have shown, if this one was taken about where it is believed to be. What
+    /// none of them could see lies on nothing, wherever it is put, and would speak for standing still: most for who drives backward, who sees
+    /// new walls beside him with every step.
+    fn comparable<'a>(
+        &self,
+        keyframes: impl Iterator<Item = &'a Keyframe> + Clone,
+        believed: Pose,
+    ) -> Vec<SurfacePoint> {
+        let rotation = believed.rotation();
+        let was_in_sight = |surface: &&SurfacePoint| {
+            let at = believed.translation() + rotation * surface.position;
+            keyframes.clone().any(|keyframe| keyframe.outlook.saw(at))
+        };
+        self.near.iter().filter(was_in_sight).copied().collect()
     }
 }
 
@@ -150,9 +172,17 @@ impl Tracker {
         let tracked = match &self.last {
             None => TrackedScan { pose: Pose::IDENTITY, step: None, travelled: 0.0 },
             Some(last) => {
-                let step = matched(&self.reference, &seen, last.pose, (motion, worst), &self.options);
+                let believed = last.pose.compose(motion.mean);
+                let near = seen.comparable(self.keyframes.iter().rev(), believed);
+                let is_new =
+                    seen.near.len() >= MUCH && (near.len() as f64) < LEAST_KNOWN * seen.near.len() as f64;
+                let seen = Seen { near, ..seen.clone() };
+                let matched = matched(&self.reference, &seen, last.pose, (motion, worst), &self.options);
+                let told = worst.unwrap_or(motion);
+                let step =
+                    if is_new { UncertainPose { covariance: told.covariance, ..matched } } else { matched };
                 let pose = last.pose.compose(step.mean);
-                self.fit = self.reference.field.fit(&seen.near, pose);
+                self.fit = if is_new { OFF_ALL } else { self.reference.field.fit(&seen.near, pose) };
                 TrackedScan {
                     pose,
                     step: Some(step),
@@ -162,7 +192,8 @@ impl Tracker {
         };
         if self.keyframes.back().is_none_or(|last| is_new_view(last, &tracked, &self.options)) {
             let TrackedScan { pose, travelled, .. } = tracked;
-            self.keyframes.push_back(Keyframe { pose, travelled, surfaces: filled(&seen.all) });
+            let outlook = Outlook::new(pose, scan.clone());
+            self.keyframes.push_back(Keyframe { travelled, surfaces: filled(&seen.all), outlook });
             self.keyframes.retain(|keyframe| travelled - keyframe.travelled <= self.options.memory);
             self.reference = Reference::new(self.keyframes.iter().rev(), pose, &self.options);
         }
@@ -259,5 +290,5 @@ fn new_part(step: &Pose, options: &MatchOptions) -> f64 {
 
 fn is_new_view(last: &Keyframe, tracked: &TrackedScan, options: &MatchOptions) -> bool {
     tracked.travelled - last.travelled > options.keyframe_distance
-        || last.pose.between(tracked.pose).theta.abs() > options.keyframe_turn
+        || last.outlook.pose().between(tracked.pose).theta.abs() > options.keyframe_turn
 }

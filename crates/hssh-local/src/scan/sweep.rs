@@ -37,6 +37,16 @@ impl Scan {
         vector![cos, sin]
     }
 
+    /// The beam that leads nearest to a direction in radians, counterclockwise from straight ahead, if the laser looks there.
+    #[must_use]
+    pub fn beam_towards(&self, bearing: f64) -> Option<usize> {
+        let steps = self.ranges.len() - self.ranges.len() % 2;
+        let step = self.view / steps.max(1) as f64;
+        let beyond_first = (bearing - self.bearing(0) + 0.5 * step).rem_euclid(std::f64::consts::TAU);
+        let beam = (beyond_first / step) as usize;
+        (beam < self.ranges.len()).then_some(beam)
+    }
+
     /// The beams that came back from within `reach` metres, with the points they hit in the robot's frame.
     pub fn hits(&self, reach: f64) -> impl Iterator<Item = (usize, Vector2<f64>)> + '_ {
         self.ranges
@@ -59,6 +69,27 @@ mod tests {
             assert!((bearing(beams, 0) + 90.0).abs() < 1e-12);
             assert!((bearing(beams, beams - 1) - last).abs() < 1e-12, "{beams}");
             assert!(bearing(beams, beams / 2).abs() < 1e-12);
+        }
+    }
+
+    /// Of any laser, each beam leads to itself, and beside the first and the last one there is none, unless it looks all around.
+    #[test]
+    fn beams_are_found_by_where_they_lead() {
+        for (beams, view, turn) in
+            [(180, 180.0, 0.0), (361, 180.0, 180.0), (1081, 270.0, -40.0), (360, 360.0, 90.0)]
+        {
+            let scan = Scan {
+                view: f64::to_radians(view),
+                turn: f64::to_radians(turn),
+                ..Scan::of_half_turn(vec![1.0; beams])
+            };
+            for beam in 0..beams {
+                for off in [-0.4, 0.0, 0.4].map(|part| part * scan.view / beams as f64) {
+                    assert_eq!(scan.beam_towards(scan.bearing(beam) + off), Some(beam));
+                }
+            }
+            let beside = scan.beam_towards(scan.bearing(0) - 1.2 * scan.view / beams as f64);
+            assert_eq!(beside, (view == 360.0).then_some(beams - 1));
         }
     }
 

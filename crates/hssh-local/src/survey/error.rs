@@ -54,6 +54,24 @@ pub enum SurveyWarning {
         /// The last of them, counted from 1.
         last: usize,
     },
+    /// A scan that lies on nothing, and nothing after it on what was before.
+    #[error(
+        "scan {scan} lies on nothing that was seen before, and the robot never came back from there to where it had been: how the two parts of \
+         the log lie to one another, the odometry alone says"
+    )]
+    Break {
+        /// The scan, counted from 1.
+        scan: usize,
+    },
+    /// The same where the odometry jumps.
+    #[error(
+        "scan {scan} lies on nothing that was seen before, the odometry jumps there, and the robot never came back to where it had been: are these \
+         recordings of several places, or was the robot carried? how the parts of the log lie to one another is not known"
+    )]
+    Carried {
+        /// The scan, counted from 1.
+        scan: usize,
+    },
     /// Odometry that stands still.
     #[error("the log has no odometry: it stands still while the scans move, and scans alone lose their way")]
     NoOdometry,

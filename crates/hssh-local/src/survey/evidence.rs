@@ -17,6 +17,8 @@ pub(super) const CONFIRMING: f64 = 8.0;
 const LEAST_TRAVEL: f64 = 15.0;
 /// A closure that counts less than this in the end is contradicted.
 pub(super) const BELIEVED: f64 = 0.5;
+/// So many returns may go unconfirmed however few are confirmed.
+const FEW_UNCONFIRMED: usize = 2;
 /// A return to where the robot was hardly expected or known is confirmed if it is one of so many.
 const CONFIRMED: usize = 4;
 /// Where the robot is known up to this standard deviation, in metres, it is where it seems to be.
@@ -82,10 +84,13 @@ impl Evidence {
     #[must_use]
     pub fn probability(&self, model: &PerceptionModel) -> f64 {
         let all = |error: f64, times: usize| (1.0 - error).powi(times.min(10_000) as i32);
+        // Where the robot seems to be back more often than the laser shows that it is, the poses are wrong, rather than that nothing was seen.
+        let usual = self.unconfirmed.min(self.returns.max(FEW_UNCONFIRMED));
         all(model.wrong_return, self.returns.saturating_sub(self.far_returns))
             * all(model.wrong_far_return, self.far_returns)
             * all(model.contradicted, self.contradicted)
-            * all(model.unconfirmed, self.unconfirmed)
+            * all(model.unconfirmed, usual)
+            * all(model.unconfirmed.max(model.adrift), self.unconfirmed - usual)
             * all(model.adrift, self.adrift)
             * all(model.lost, self.lost)
     }
@@ -117,6 +122,10 @@ pub(super) fn evidence(track: &Track, closed: &ClosedTrack) -> (Evidence, Vec<Su
         *if is_known { &mut evidence.unconfirmed } else { &mut evidence.adrift } += 1;
         warnings.push(SurveyWarning::Unconfirmed { scan: later + 1, earlier: earlier + 1 });
     }
+    for scan in breaks(track, &believed) {
+        evidence.adrift += 1;
+        warnings.push(SurveyWarning::Break { scan: scan + 1 });
+    }
     let possible = closed.alike.possible.iter().copied();
     let possible: Vec<(usize, usize)> =
         possible.filter(|pair| !is_between_returns(track, &believed, *pair)).collect();
@@ -125,6 +134,15 @@ pub(super) fn evidence(track: &Track, closed: &ClosedTrack) -> (Evidence, Vec<Su
         warnings.push(SurveyWarning::Possible { scan: later + 1, earlier: earlier + 1 });
     }
     (evidence, warnings)
+}
+
+/// The scans that lie on nothing that was seen before, the first of each row of them, after which the robot never came back to where it was
+/// before: it may have been carried, or its odometry begun anew, and nobody would see it.
+fn breaks(track: &Track, believed: &[Closure]) -> Vec<usize> {
+    let is_first = |scan: &usize| scan.checked_sub(1).is_none_or(|before| !track.lost.contains(&before));
+    let is_bridged =
+        |scan: usize| believed.iter().any(|closure| closure.earlier < scan && scan <= closure.later);
+    track.lost.iter().copied().filter(is_first).filter(|&scan| !is_bridged(scan)).collect()
 }
 
 /// Whether other closures show that the robot was back on that stretch: then it is in doubt how exactly, not whether.
@@ -312,6 +330,36 @@ mod tests {
             off: 0.0,
             weight,
         }
+    }
+
+    /// Scan 50 lies on nothing. With a return from later on to what was before, it does not matter how the robot came there.
+    #[test]
+    fn where_a_scan_lies_on_nothing_the_way_is_broken_until_the_robot_comes_back() {
+        let broken = Track { lost: vec![50, 51, 90], ..around() };
+        let told = |closures: Vec<Closure>| {
+            let (found, warnings) = evidence(&broken, &closed(closures));
+            let is_break = |warning: &&SurveyWarning| matches!(warning, SurveyWarning::Break { .. });
+            (found.adrift, warnings.iter().filter(is_break).cloned().collect::<Vec<_>>())
+        };
+        let breaks = [51, 91].map(|scan| SurveyWarning::Break { scan });
+        assert_eq!(told(Vec::new()), (2, breaks.to_vec()));
+        assert_eq!(told(vec![closure((30.0, 150.0), 1.0)]), (1, breaks[..1].to_vec()));
+        assert_eq!(told(again(2, 60)), (0, vec![]));
+    }
+
+    /// Where the robot seems to be back and hardly ever is as the laser shows, it is elsewhere: two times may be chance.
+    #[test]
+    fn what_is_unconfirmed_more_often_than_not_costs_as_much_as_what_is_adrift() {
+        let model = PerceptionModel::default();
+        let of = |returns: usize, unconfirmed: usize, adrift: usize| {
+            Evidence { returns, unconfirmed, adrift, ..Evidence::default() }.probability(&model)
+        };
+        assert!((of(0, 5, 0) - of(0, 2, 3)).abs() < 1e-12);
+        assert!((of(4, 5, 0) - of(4, 4, 1)).abs() < 1e-12);
+        assert!(
+            (of(5, 5, 0) - (1.0 - model.wrong_return).powi(5) * (1.0 - model.unconfirmed).powi(5)).abs()
+                < 1e-12
+        );
     }
 
     /// Around a square of 30 m, and half of it again.

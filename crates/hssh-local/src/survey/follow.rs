@@ -5,7 +5,7 @@ use hssh_metrics::Pose;
 
 use super::error::{SurveyError, SurveyWarning};
 use super::evidence::evidence;
-use super::lost::{doubts, turned_laser};
+use super::lost::{carried, doubts, turned_laser};
 use super::options::SurveyOptions;
 use super::sight::short_sighted;
 use super::visit::{Survey, Visit};
@@ -106,9 +106,10 @@ pub fn survey_tracked<R: Into<Reply>>(
         }
     });
     let (mut evidence, mut warnings) = evidence(&track, &closed);
+    carried(log, &mut evidence, &mut warnings);
     let mut lost = doubts(log, &track);
     lost.extend(short_sighted(log, options.place.depth()));
-    evidence.lost = lost.len();
+    evidence.lost += lost.len();
     warnings.extend(lost);
     warnings.extend(turned_laser(log, &track));
     if stopped {

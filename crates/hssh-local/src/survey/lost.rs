@@ -1,6 +1,7 @@
 //! Where a robot was lost: its scans lie on nothing that it saw before, or it has no odometry, or its laser is turned.
 
 use super::error::SurveyWarning;
+use super::evidence::Evidence;
 use crate::carmen::{LaserLog, LaserTurn, LogWarning};
 use crate::matching::Track;
 
@@ -39,6 +40,25 @@ pub fn doubts(log: &LaserLog, track: &Track) -> Vec<SurveyWarning> {
         });
     }
     warnings
+}
+
+/// Where the way breaks and the odometry jumps as well, nothing tells how the parts of the log lie to one another: that counts as being lost.
+pub(super) fn carried(log: &LaserLog, evidence: &mut Evidence, warnings: &mut [SurveyWarning]) {
+    /// So many scans after a jump may still lie on what was seen before.
+    const AFTER: usize = 2;
+    let jump = |warning: &LogWarning| match warning {
+        LogWarning::Jump { at, .. } => Some(log.scans.partition_point(|scan| scan.at < *at)),
+        _ => None,
+    };
+    let jumps: Vec<usize> = log.warnings.iter().filter_map(jump).collect();
+    for warning in warnings {
+        let SurveyWarning::Break { scan } = *warning else { continue };
+        if jumps.iter().any(|jump| (*jump..=jump + AFTER).contains(&(scan - 1))) {
+            *warning = SurveyWarning::Carried { scan };
+            evidence.adrift -= 1;
+            evidence.lost += 1;
+        }
+    }
 }
 
 /// The stretches of scans along which the odometry stands still and the scans go on: the first, the last, and how many metres away from the
@@ -106,6 +126,25 @@ mod tests {
         assert_eq!(row, [SurveyWarning::Lost { first: 11, last: 15 }]);
         let many: Vec<usize> = (0..40).step_by(3).collect();
         assert_eq!(doubts(&log(0.5), &track(&many)), [SurveyWarning::Lost { first: 1, last: 40 }]);
+    }
+
+    /// Twenty scans along a line, and twenty of another session, which counts from where it begins.
+    #[test]
+    fn a_break_at_a_jump_is_a_robot_that_was_carried() {
+        let line = |scan: u32| {
+            let x = f64::from(scan % 20) * 0.5;
+            format!("FLASER 3 1 2 1 0 0 0 {x} 0 0 {scan} host {scan}\n")
+        };
+        let log = LaserLog::read((0..40).map(line).collect::<String>().as_bytes()).unwrap();
+        let told = |scan: usize| {
+            let mut evidence = Evidence { adrift: 1, ..Evidence::default() };
+            let mut warnings = [SurveyWarning::Break { scan }];
+            carried(&log, &mut evidence, &mut warnings);
+            let [warning] = warnings;
+            (warning, evidence.adrift, evidence.lost)
+        };
+        assert_eq!(told(21), (SurveyWarning::Carried { scan: 21 }, 0, 1));
+        assert_eq!(told(11), (SurveyWarning::Break { scan: 11 }, 1, 0));
     }
 
     #[test]

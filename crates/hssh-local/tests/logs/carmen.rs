@@ -81,8 +81,8 @@ fn a_bad_message_is_left_out_with_line_and_word() {
             "line 7: FLASER left out: word 2, `-1`, is no number of beams between 1 and 100000",
         ),
         (
-            "FLASER 2 1 1 0 0 0 0 0 0 0 h 0\n",
-            "line 7: FLASER left out: the scan has 2 beams, but most scans have 3",
+            "FLASER 24 1 1 1 1 1 1 1 1 1 1 1 1 1 1 1 1 1 1 1 1 1 1 1 1 0 0 0 1 0 0.1 0 h 0\n",
+            "line 7: FLASER left out: the scan has 24 beams, but most scans have 3",
         ),
         ("ODOM 1e15 2 0\n", "line 7: ODOM left out: word 2, `1e15`, is no place where a robot may be"),
         ("ODOM 1 2\n", "line 7: ODOM left out: the message ends after 3 words, 4 are needed"),
@@ -100,8 +100,11 @@ fn a_log_that_breaks_off_is_used_up_to_there() {
     let whole = gzip(&LOG.repeat(200));
     let log = LaserLog::read(&whole[..whole.len() / 2]).unwrap();
     assert!((1..400).contains(&log.scans.len()));
+    // Each of the 200 begins anew.
+    let others = log.warnings.iter().filter(|warning| !matches!(warning, LogWarning::Jump { .. }));
+    let others: Vec<&LogWarning> = others.collect();
     assert!(
-        matches!(log.warnings[..], [LogWarning::Remark { .. }, LogWarning::BreaksOff { .. }]),
+        matches!(others[..], [LogWarning::Remark { .. }, LogWarning::BreaksOff { .. }]),
         "{:?}",
         log.warnings
     );
@@ -165,13 +168,41 @@ fn messages_in_small_letters_and_behind_a_mark_are_messages() {
     assert_eq!(read(&LOG.replace('\n', "\r\n")).unwrap().scans, read(LOG).unwrap().scans);
 }
 
-/// The scans that differ are left out, not all but those that are like the first.
+/// The scans of which it is not known how they look are left out, not all but those that are like the first.
 #[test]
 fn the_usual_number_of_beams_counts() {
-    let text = format!("FLASER 2 1 1 0 0 0 0 0 0 0 h 0\n{}", drive("1 2 3", &straight(4)));
+    let text = format!("FLASER 4 1 1 1 1 0 0 0 0 0 0 0 h 0\n{}", drive("1 2 3 4 5 6 7", &straight(4)));
     let log = read(&text).unwrap();
-    assert_eq!((log.scans.len(), log.beams(), log.warnings.len()), (4, 3, 1));
+    assert_eq!((log.scans.len(), log.beams(), log.warnings.len()), (4, 7, 1));
     assert!(log.warnings[0].is_loss());
+}
+
+/// A laser that tells its last beam now and then, or every second one only, looks as wide as ever.
+#[test]
+fn every_scan_has_its_own_beams() {
+    let wall = |step: f64, beams: usize| {
+        (0..beams).map(|beam| format!("{} ", 2.0 + beam as f64 * step)).collect::<String>()
+    };
+    let scans = [wall(0.1, 180), wall(0.1, 181), wall(0.2, 90), wall(0.05, 361), wall(0.1, 181)];
+    let text: String = scans
+        .iter()
+        .enumerate()
+        .map(|(index, ranges)| {
+            format!(
+                "FLASER {} {ranges} 7 8 9 {index} 0 0 {index} h {index}\n",
+                ranges.split_whitespace().count()
+            )
+        })
+        .collect();
+    let log = read(&text).unwrap();
+    assert_eq!((log.scans.len(), log.beams()), (5, 181));
+    assert!(log.warnings.is_empty(), "{:?}", log.warnings);
+    for scan in &log.scans {
+        for beam in 0..scan.scan.ranges.len() {
+            let degrees = scan.scan.bearing(beam).to_degrees() + 90.0;
+            assert!((scan.scan.ranges[beam] - (2.0 + 0.1 * degrees)).abs() < 1e-9, "{degrees}");
+        }
+    }
 }
 
 /// The limit counts wherever it stands, and where it does not stand, the readings tell it.
@@ -246,6 +277,32 @@ fn the_odometry_may_start_anew() {
         let log = read(&text).unwrap();
         assert_eq!((log.scans.len(), log.warnings.len()), (19, 1), "{x}");
     }
+}
+
+/// Between dense lines of odometry no robot goes metres, however long it is from scan to scan; and who is suddenly where all counting begins was
+/// not driven there, however long that took.
+#[test]
+fn odometry_that_begins_anew_nearby_is_a_jump() {
+    let lines = |scan: u32, x: f64| {
+        let odometry: String =
+            (0..20).map(|k| format!("ODOM {} 0 0 0 0 0 0 h 0\n", x + 0.025 * f64::from(k))).collect();
+        let end = x + 0.5;
+        format!("{odometry}FLASER 3 1 2 3 7 8 9 {end} 0 0 {} h 0\n", 3 * scan)
+    };
+    let dense: String =
+        (0..20).map(|scan| lines(scan, 0.5 * f64::from(scan) - if scan < 10 { 0.0 } else { 5.01 })).collect();
+    let jumps = |text: &str| {
+        let log = read(text).unwrap();
+        log.warnings.iter().filter(|warning| matches!(warning, LogWarning::Jump { .. })).count()
+    };
+    assert_eq!(jumps(&dense), 1);
+    let usual: String = (0..20).map(|scan| lines(scan, 0.5 * f64::from(scan))).collect();
+    assert_eq!(jumps(&usual), 0);
+    let mut poses = straight(20);
+    poses[4..].iter_mut().for_each(|pose| pose[0] -= 2.0);
+    assert_eq!(jumps(&drive("1 2 3", &poses)), 1);
+    poses[4..].iter_mut().for_each(|pose| pose[0] += 0.001);
+    assert_eq!(jumps(&drive("1 2 3", &poses)), 0, "it drove back");
 }
 
 /// What the user says of the laser's place counts more than the log.

@@ -79,25 +79,41 @@ fn driving(facing: f64, is_mirrored: bool) -> String {
     log
 }
 
+/// Nobody says that the laser looks back or aside: the scans do, and the odometry is turned with it, unless somebody knows better.
 #[test]
-fn a_laser_that_looks_elsewhere_is_doubted() {
+fn a_laser_that_looks_elsewhere_is_reckoned_with() {
     let facing = |log: &LaserLog| {
         log.warnings.iter().find_map(|warning| match warning {
-            LogWarning::Facing { seen } => Some(*seen),
+            LogWarning::Facing { seen, is_reckoned } => Some((*seen, *is_reckoned)),
             _ => None,
         })
     };
     assert_eq!(facing(&read(&driving(0.0, false)).unwrap()), None);
     for turned in [PI, FRAC_PI_2, -FRAC_PI_2, 0.7, -2.4] {
         let log = driving(turned, false);
-        let seen = facing(&read(&log).unwrap()).unwrap_or_default();
-        assert!(Pose::new(0.0, 0.0, seen - turned).theta.abs() < 0.1, "{seen} is not {turned}");
+        let found = read(&log).unwrap();
+        let (seen, is_reckoned) = facing(&found).unwrap();
+        assert!(
+            Pose::new(0.0, 0.0, seen - turned).theta.abs() < 0.1 && is_reckoned,
+            "{seen} is not {turned}"
+        );
         let known = LaserMount { view: None, pose: Some(Pose::new(0.0, 0.0, turned)) };
-        assert_eq!(facing(&LaserLog::read_with(log.as_bytes(), &known).unwrap()), None, "{turned}");
+        let known = LaserLog::read_with(log.as_bytes(), &known).unwrap();
+        assert_eq!(facing(&known), None, "{turned}");
+        for (one, other) in found.scans.iter().zip(&known.scans) {
+            let off = one.odometry.between(other.odometry);
+            assert!(off.translation().norm() < 1e-9 && off.theta.abs() < 0.1, "{off:?}");
+        }
+        let ahead = LaserMount { view: None, pose: Some(Pose::IDENTITY) };
+        let insisted = LaserLog::read_with(log.as_bytes(), &ahead).unwrap();
+        assert!(facing(&insisted).is_some_and(|(_, is_reckoned)| !is_reckoned), "{turned}");
+        assert!(insisted.scans.iter().all(|scan| scan.odometry.theta == 0.0));
     }
     assert_eq!(facing(&read(&driving(0.0, true)).unwrap()), None, "straight ahead, a mirror changes nothing");
     // A laser that was mounted by eye is not doubted.
     assert_eq!(facing(&read(&driving(0.1, false)).unwrap()), None);
+    // Of a laser that says that it looks back nothing else is expected.
+    assert_eq!(facing(&read(&driving(PI, false).replace("FLASER", "RLASER")).unwrap()), None);
 }
 
 /// Odometry in feet, or of wheels that are taken for twice as large.
@@ -139,18 +155,15 @@ fn a_bare_corridor_does_not_tell_where_the_laser_looks() {
     assert!(!read(&turning(180.0, 181, "")).unwrap().is_facing_unclear, "it hardly drove");
 }
 
-/// A laser that is mounted upside down: its beams come from left to right.
+/// A laser that is mounted upside down: its beams come from left to right. They are put in order, and it is said that the odometry may be the one
+/// that is mirrored; unless it is known to be.
 #[test]
 fn beams_in_the_other_order_are_doubted() {
-    let mirrored: Vec<String> = turning(180.0, 181, "")
-        .lines()
-        .map(|line| {
-            let mut words: Vec<&str> = line.split(' ').collect();
-            words[2..183].reverse();
-            words.join(" ") + "\n"
-        })
-        .collect();
-    assert!(read(&mirrored.concat()).unwrap().warnings.contains(&LogWarning::Mirrored));
+    let usual = turning(180.0, 181, "");
+    let mirrored = reworded(&usual, |_, words| words[2..183].reverse());
+    let (found, expected) = (read(&mirrored).unwrap(), read(&usual).unwrap());
+    assert!(found.warnings.contains(&LogWarning::Mirrored { is_reckoned: true }));
+    assert!(found.scans.iter().zip(&expected.scans).all(|(one, other)| one.scan == other.scan));
 }
 
 /// The words of a log's scans, each changed by its number and put together again.

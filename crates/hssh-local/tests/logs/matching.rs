@@ -56,6 +56,46 @@ fn along_a_corridor_odometry_decides() {
     assert!(variances.z < 0.1 * odometry.heading.powi(2) * 12.6, "{variances}");
 }
 
+/// Doorways on both sides tell how far the robot goes, ahead as well as backward: what comes into view beside the robot, and was behind the laser
+/// before, does not speak for standing still.
+#[test]
+fn who_drives_backward_goes_as_far_as_ahead() {
+    let mut boxes = vec![[[-4.0, -1.0], [44.0, 1.0]]];
+    for (left, right) in
+        [(1.0, 3.5), (7.0, 9.5), (14.5, 12.0), (20.0, 19.0), (25.5, 27.0), (33.0, 31.0), (38.5, 40.0)]
+    {
+        boxes.push([[left, 1.0], [left + 1.0, 2.0]]);
+        boxes.push([[right, -2.5], [right + 1.5, -1.0]]);
+    }
+    let walls = around(&boxes);
+    let ahead = drive(&[[0.0, 0.0], [40.0, 0.0]], 0.75);
+    let backward: Vec<Pose> = ahead.iter().rev().copied().collect();
+    for poses in [ahead, backward] {
+        let track = tracked(&walls, &poses);
+        let gone = track.scans[poses.len() - 1].travelled;
+        let truth = (poses[0].x - poses[poses.len() - 1].x).abs();
+        assert!((gone - truth).abs() < 0.03 * truth, "{gone} instead of {truth}");
+    }
+}
+
+/// After half a turn on the spot between two scans nothing is in sight that was before: how far the robot turned is known as well as odometry tells,
+/// and no better.
+#[test]
+fn what_was_never_in_sight_tells_nothing() {
+    let walls = around(&[[[-9.0, -2.0], [9.0, 2.0]], [[2.0, -6.0], [4.0, 2.0]]]);
+    let heading = |step: u32| if step > 6 { std::f64::consts::PI } else { 0.0 };
+    let poses: Vec<Pose> = (0..13).map(|step| Pose::new(0.0, 0.0, heading(step))).collect();
+    let track = tracked_by_exact_wheels(&walls, &poses);
+    assert_eq!(track.lost, [7]);
+    let turn = track.scans[7].step.expect("it is not the first");
+    assert!(turn.covariance.matrix()[(2, 2)].sqrt() > 0.2, "{turn:?}");
+}
+
+fn tracked_by_exact_wheels(walls: &Walls, poses: &[Pose]) -> Track {
+    let read = LaserLog::read(log(walls, poses, poses).as_bytes()).unwrap();
+    track(&read, &MatchOptions::default(), |_| ())
+}
+
 /// Nobody says that the laser is turned by 2°; wheels and scans together do, and what it did to the track is undone.
 #[test]
 fn a_turned_laser_is_reckoned_with() {

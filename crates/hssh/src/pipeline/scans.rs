@@ -77,10 +77,12 @@ pub(super) fn warnings(log: &LaserLog) -> Vec<AnswerWarning> {
             | LogWarning::Noisy { .. }
             | LogWarning::ScansRepeat { .. } => WarningKind::Questionable,
             LogWarning::StrayOdometry { .. } | LogWarning::OddParameter { .. } => WarningKind::MessageLeftOut,
-            LogWarning::View { .. } | LogWarning::Facing { .. } | LogWarning::Mirrored => {
-                WarningKind::LaserView
+            LogWarning::View { .. }
+            | LogWarning::Facing { is_reckoned: false, .. }
+            | LogWarning::Mirrored { .. } => WarningKind::LaserView,
+            LogWarning::LaserPose { .. } | LogWarning::Facing { is_reckoned: true, .. } => {
+                WarningKind::LaserPose
             }
-            LogWarning::LaserPose { .. } => WarningKind::LaserPose,
             LogWarning::Remark { .. } => WarningKind::Recording,
             LogWarning::ScansAlone => WarningKind::NoOdometry,
         };
@@ -105,9 +107,10 @@ pub(super) fn warn_of(found: &[SurveyWarning], log: &LaserLog, warnings: &mut Ve
         }
         let (kind, scan) = match *warning {
             SurveyWarning::Contradicted { scan, .. } => (WarningKind::ContradictedReturn, scan),
-            SurveyWarning::Unconfirmed { scan, .. } | SurveyWarning::Possible { scan, .. } => {
-                (WarningKind::UnconfirmedReturn, scan)
-            }
+            SurveyWarning::Unconfirmed { scan, .. }
+            | SurveyWarning::Possible { scan, .. }
+            | SurveyWarning::Break { scan } => (WarningKind::UnconfirmedReturn, scan),
+            SurveyWarning::Carried { scan } => (WarningKind::Lost, scan),
             SurveyWarning::Lost { first, .. } => (WarningKind::Lost, first),
             SurveyWarning::ShortSighted { .. } => (WarningKind::Questionable, 1),
             SurveyWarning::LaserTurned(_) | SurveyWarning::TurnedWithLaser(_) => (WarningKind::LaserPose, 1),
