@@ -108,12 +108,15 @@ pub(crate) fn filled(surfaces: &[SurfacePoint]) -> Vec<SurfacePoint> {
     all
 }
 
+/// Where a point is, and its number.
+type Placed = (Vector2<f64>, u32);
+
 /// Surface points in one frame, in buckets.
 #[derive(Clone, Default, Debug)]
 pub(crate) struct Cloud {
     points: Vec<SurfacePoint>,
     /// For each bucket, the numbers of its points that have a normal, with where they are.
-    buckets: FxHashMap<(i32, i32), Vec<(Vector2<f64>, u32)>>,
+    buckets: FxHashMap<(i32, i32), Vec<Placed>>,
 }
 
 impl Cloud {
