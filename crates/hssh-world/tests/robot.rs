@@ -82,6 +82,14 @@ fn it_reaches_the_places_it_meant_to_and_centers_in_them() {
 }
 
 /// No cell whose middle is in the robot's disc is anything but free, wherever the robot was.
+/// Beside short spurs a scan alone at times shows no place, and the robot would turn to and fro where it climbs to none.
+#[test]
+fn a_climb_that_does_not_end_is_begun_anew() {
+    let drive = driven(&plan(&named("spurs")), 60, 7);
+    assert_eq!(drive.ending, Ending::Done);
+    assert_eq!(drive.stops.len(), 10);
+}
+
 #[test]
 fn it_never_enters_what_is_not_free() {
     let floor = named("random-planar");

@@ -91,14 +91,14 @@ impl<'a> Run<'a> {
         let mut plan: Option<Plan> = None;
         self.turn_around()?;
         let start = self.first_action();
-        self.perform(&start)?;
+        self.go(&start)?;
         for _ in 0..self.options.travels {
             let ahead = self.outlook.pose().theta;
             self.arrive()?;
             let Some(here) = self.stop(plan) else {
                 // Something is like a place that the map does not have: straight on.
                 let action = self.way_toward(ahead).ok_or(Ending::NoWayOn)?;
-                self.perform(&action)?;
+                self.go(&action)?;
                 continue;
             };
             let entry = plan.filter(|plan| plan.to.0 == here).map(|plan| plan.to.1);
@@ -118,7 +118,7 @@ impl<'a> Run<'a> {
             if let Some(stop) = self.stops.last_mut() {
                 stop.exit = Some(next.exit);
             }
-            self.perform(&action)?;
+            self.go(&action)?;
             plan = Some(next);
         }
         self.arrive()?;
@@ -147,11 +147,14 @@ impl<'a> Run<'a> {
             self.look();
             self.outlook.read_again();
             if self.outlook.vicinity().is_some() {
-                return self.perform(&vec![ControlLaw::HillClimb]);
+                match self.perform(&vec![ControlLaw::HillClimb]) {
+                    Err(Ending::Lost(ControlLaw::HillClimb)) => continue,
+                    ended => return ended,
+                }
             }
             self.face(self.course)?;
             let width = self.corridor_width();
-            self.perform(&approach(width))?;
+            self.go(&approach(width))?;
         }
         Err(Ending::Lost(ControlLaw::HillClimb))
     }
@@ -170,6 +173,15 @@ impl<'a> Run<'a> {
         let read = self.outlook.gateways().map(off).enumerate();
         let (index, off) = read.min_by(|a, b| a.1.total_cmp(&b.1))?;
         travel(&self.outlook.vicinity()?, index).filter(|_| off <= SAME_GATEWAY)
+    }
+
+    /// Performs an action that leads to a place. A climb that does not end, since from there a scan alone shows no place, is the end of it, too:
+    /// whoever turns around then sees more.
+    fn go(&mut self, action: &Action) -> Result<(), Ending> {
+        match self.perform(action) {
+            Err(Ending::Lost(ControlLaw::HillClimb)) => Ok(()),
+            ended => ended,
+        }
     }
 
     /// Applies each law of an action until it ends. Where a niche seemed to be the end of the corridor, the robot turns
