@@ -44,6 +44,8 @@ pub struct Evidence {
     /// How many times it seems to be back after so long a way that it might as well be elsewhere, and the laser does
     /// not show it; or may be back, as far as is known; or is back, as the laser shows, where it was hardly expected, or known.
     pub adrift: usize,
+    /// How often a scan lies on nothing that was seen before, and the robot never came back to what was: it may have been carried.
+    pub breaks: usize,
     /// On how many stretches the robot was lost: scans lie on nothing that was seen before, wherever they are put. A log
     /// without odometry counts as one, and so does one of a laser that sees too little.
     pub lost: usize,
@@ -60,7 +62,7 @@ pub struct PerceptionModel {
     pub contradicted: f64,
     /// The robot was back somewhere else, or not at all, where the laser does not show it.
     pub unconfirmed: f64,
-    /// The same after so long a way that the robot might as well be elsewhere.
+    /// The same after so long a way that the robot might as well be elsewhere, in a log of which nothing else is known; or the robot was carried.
     pub adrift: f64,
     /// Something is wrong with the map where the robot was lost.
     pub lost: f64,
@@ -90,10 +92,25 @@ impl Evidence {
             * all(model.wrong_far_return, self.far_returns)
             * all(model.contradicted, self.contradicted)
             * all(model.unconfirmed, usual)
-            * all(model.unconfirmed.max(model.adrift), self.unconfirmed - usual)
-            * all(model.adrift, self.adrift)
+            * none_adrift(
+                model.adrift.max(model.unconfirmed),
+                self.returns.saturating_sub(self.far_returns),
+                self.adrift + self.unconfirmed - usual,
+            )
+            * all(model.adrift, self.breaks)
             * all(model.lost, self.lost)
     }
+}
+
+/// How probable it is that the robot was where it seems to be each of so many times, after it was so many other times, as the laser shows. How
+/// often it is not differs from log to log, and is not known of this one before: whose poses are wrong once, they mostly are wrong again. So this
+/// is the rule of succession, for a prior by which one time alone is wrong with the error's probability, Beta(1, 1/error − 1).
+fn none_adrift(error: f64, confirmed: usize, times: usize) -> f64 {
+    if times == 0 || error <= 0.0 {
+        return 1.0;
+    }
+    let right = 1.0 / error - 1.0 + confirmed as f64;
+    right / (right + times as f64)
 }
 
 /// The evidence for a closed track, and what there is to say about it.
@@ -123,7 +140,7 @@ pub(super) fn evidence(track: &Track, closed: &ClosedTrack) -> (Evidence, Vec<Su
         warnings.push(SurveyWarning::Unconfirmed { scan: later + 1, earlier: earlier + 1 });
     }
     for scan in breaks(track, &believed) {
-        evidence.adrift += 1;
+        evidence.breaks += 1;
         warnings.push(SurveyWarning::Break { scan: scan + 1 });
     }
     let possible = closed.alike.possible.iter().copied();
@@ -339,7 +356,7 @@ mod tests {
         let told = |closures: Vec<Closure>| {
             let (found, warnings) = evidence(&broken, &closed(closures));
             let is_break = |warning: &&SurveyWarning| matches!(warning, SurveyWarning::Break { .. });
-            (found.adrift, warnings.iter().filter(is_break).cloned().collect::<Vec<_>>())
+            (found.breaks, warnings.iter().filter(is_break).cloned().collect::<Vec<_>>())
         };
         let breaks = [51, 91].map(|scan| SurveyWarning::Break { scan });
         assert_eq!(told(Vec::new()), (2, breaks.to_vec()));
@@ -360,6 +377,27 @@ mod tests {
             (of(5, 5, 0) - (1.0 - model.wrong_return).powi(5) * (1.0 - model.unconfirmed).powi(5)).abs()
                 < 1e-12
         );
+    }
+
+    /// By the chances of the prior, integrated: ∫ Beta(q; 1, 1/0.3 − 1) (1 − q)^(confirmed + times) dq over that with `confirmed` alone.
+    #[test]
+    fn who_was_right_often_is_right_again() {
+        let beyond = 1.0 / 0.3 - 1.0;
+        let mean = |power: usize| {
+            let steps = 200_000;
+            let at = |step: usize| (step as f64 + 0.5) / steps as f64;
+            let density = |q: f64| beyond * (1.0 - q).powf(beyond - 1.0);
+            (0..steps).map(|step| density(at(step)) * (1.0 - at(step)).powi(power as i32)).sum::<f64>()
+                / steps as f64
+        };
+        for (confirmed, times) in [(0, 1), (0, 10), (5, 7), (35, 13)] {
+            let expected = mean(confirmed + times) / mean(confirmed);
+            assert!(
+                (none_adrift(0.3, confirmed, times) - expected).abs() < 1e-6,
+                "{confirmed} {times} {expected}"
+            );
+        }
+        assert!((none_adrift(0.3, 0, 1) - 0.7).abs() < 1e-12);
     }
 
     /// Around a square of 30 m, and half of it again.
@@ -538,8 +576,11 @@ mod tests {
             let evidence = Evidence { returns, contradicted, unconfirmed, ..Evidence::default() };
             let probability = evidence.probability(&model);
             prop_assert!((0.0..=1.0).contains(&probability));
+            // A return more speaks for what is unconfirmed.
+            let confirmed = Evidence { unconfirmed: unconfirmed.min(returns), ..evidence };
+            let again = Evidence { returns: returns + 1, ..confirmed };
+            prop_assert!(again.probability(&model) <= confirmed.probability(&model));
             for more in [
-                Evidence { returns: returns + 1, ..evidence },
                 Evidence { contradicted: contradicted + 1, ..evidence },
                 Evidence { unconfirmed: unconfirmed + 1, ..evidence },
             ] {

@@ -55,7 +55,7 @@ pub(super) fn carried(log: &LaserLog, evidence: &mut Evidence, warnings: &mut [S
         let SurveyWarning::Break { scan } = *warning else { continue };
         if jumps.iter().any(|jump| (*jump..=jump + AFTER).contains(&(scan - 1))) {
             *warning = SurveyWarning::Carried { scan };
-            evidence.adrift -= 1;
+            evidence.breaks -= 1;
             evidence.lost += 1;
         }
     }
@@ -137,11 +137,11 @@ mod tests {
         };
         let log = LaserLog::read((0..40).map(line).collect::<String>().as_bytes()).unwrap();
         let told = |scan: usize| {
-            let mut evidence = Evidence { adrift: 1, ..Evidence::default() };
+            let mut evidence = Evidence { breaks: 1, ..Evidence::default() };
             let mut warnings = [SurveyWarning::Break { scan }];
             carried(&log, &mut evidence, &mut warnings);
             let [warning] = warnings;
-            (warning, evidence.adrift, evidence.lost)
+            (warning, evidence.breaks, evidence.lost)
         };
         assert_eq!(told(21), (SurveyWarning::Carried { scan: 21 }, 0, 1));
         assert_eq!(told(11), (SurveyWarning::Break { scan: 11 }, 1, 0));

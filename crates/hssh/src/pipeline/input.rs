@@ -157,7 +157,7 @@ impl SurveyedLog {
         AnsweredEvidence {
             returns: evidence.returns as u64,
             contradicted: evidence.contradicted as u64,
-            unconfirmed: (evidence.unconfirmed + evidence.adrift) as u64,
+            unconfirmed: (evidence.unconfirmed + evidence.adrift + evidence.breaks) as u64,
             lost: evidence.lost as u64,
             probability: evidence.probability(&PerceptionModel::default()),
         }
