@@ -85,9 +85,13 @@ fn it_reaches_the_places_it_meant_to_and_centers_in_them() {
 /// Beside short spurs a scan alone at times shows no place, and the robot would turn to and fro where it climbs to none.
 #[test]
 fn a_climb_that_does_not_end_is_begun_anew() {
-    let drive = driven(&plan(&named("spurs")), 60, 7);
+    let floor = named("spurs");
+    let drive = driven(&plan(&floor), 60, 7);
     assert_eq!(drive.ending, Ending::Done);
     assert_eq!(drive.stops.len(), 10);
+    let centered = drive.stops.iter().map(|stop| nearest(&floor, [stop.pose.x, stop.pose.y]));
+    let places: BTreeSet<usize> = centered.filter(|(_, away)| *away < 0.5).map(|(place, _)| place).collect();
+    assert_eq!(places.len(), floor.world.places().len());
 }
 
 #[test]

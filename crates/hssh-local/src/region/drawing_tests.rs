@@ -100,6 +100,16 @@ fn passage(map: &RegionMap, width: f64, degrees: f64) -> Option<Passage> {
     map.passages.iter().find(|passage| away(passage) < 0.5).copied()
 }
 
+/// Drawn like that, the plan has three regions, and its opening is a door of that width.
+fn is_a_door_of_three_regions(plan: &Plan, cell: f64, turn: f64, width: f64) {
+    let map = regions(&plan.drawn(cell, turn));
+    let case = format!("{cell} m, turned by {turn}°: {width} m, leaves {:?}", plan.leaves);
+    assert_eq!(map.regions.len(), 3, "{case}");
+    let door = passage(&map, width, turn).unwrap_or_else(|| panic!("{case}: no passage"));
+    assert!(door.door_probability > 0.9, "{case}: {door:?}");
+    assert!((door.gateway.width - width).abs() < 0.17, "{case}: {door:?}");
+}
+
 /// A leaf of any width, into the room or the corridor, at any angle and in any cells: the same three regions, and a door as wide as
 /// the opening.
 #[test]
@@ -108,12 +118,7 @@ fn a_leaf_ajar_parts_nothing_and_is_a_door() {
         for (width, degrees) in [(0.8, 60.0), (0.9, 30.0), (0.9, 60.0), (0.9, 90.0), (1.0, 75.0)] {
             for is_into_room in [true, false] {
                 let plan = Plan::with_opening(width).with_leaves(width, 1, degrees, is_into_room);
-                let map = regions(&plan.drawn(cell, turn));
-                let case = format!("{cell} m, turned by {turn}°: {width} m, {degrees}°, {is_into_room}");
-                assert_eq!(map.regions.len(), 3, "{case}");
-                let door = passage(&map, width, turn).unwrap_or_else(|| panic!("{case}: no passage"));
-                assert!(door.door_probability > 0.9, "{case}: {door:?}");
-                assert!((door.gateway.width - width).abs() < 0.17, "{case}: {door:?}");
+                is_a_door_of_three_regions(&plan, cell, turn, width);
             }
         }
     }
@@ -130,12 +135,7 @@ fn two_leaves_are_a_door_and_no_leaf_is_an_opening() {
             for degrees in [60.0, 90.0] {
                 for is_into_room in [true, false] {
                     let plan = Plan::with_opening(width).with_leaves(width, 2, degrees, is_into_room);
-                    let map = regions(&plan.drawn(0.05, turn));
-                    let case = format!("turned by {turn}°: {width} m, {degrees}°, {is_into_room}");
-                    assert_eq!(map.regions.len(), 3, "{case}");
-                    let door = passage(&map, width, turn).unwrap_or_else(|| panic!("{case}: no passage"));
-                    assert!(door.door_probability > 0.9, "{case}: {door:?}");
-                    assert!((door.gateway.width - width).abs() < 0.17, "{case}: {door:?}");
+                    is_a_door_of_three_regions(&plan, 0.05, turn, width);
                 }
             }
         }

@@ -156,7 +156,9 @@ pub(super) fn evidence(track: &Track, closed: &ClosedTrack) -> (Evidence, Vec<Su
 /// The scans that lie on nothing that was seen before, the first of each row of them, after which the robot never came back to where it was
 /// before: it may have been carried, or its odometry begun anew, and nobody would see it.
 fn breaks(track: &Track, believed: &[Closure]) -> Vec<usize> {
-    let is_first = |scan: &usize| scan.checked_sub(1).is_none_or(|before| !track.lost.contains(&before));
+    // The lost ones are in order.
+    let is_first =
+        |scan: &usize| scan.checked_sub(1).is_none_or(|before| track.lost.binary_search(&before).is_err());
     let is_bridged =
         |scan: usize| believed.iter().any(|closure| closure.earlier < scan && scan <= closure.later);
     track.lost.iter().copied().filter(is_first).filter(|&scan| !is_bridged(scan)).collect()
