@@ -27,6 +27,7 @@ mod curve;
 mod drawing;
 mod graph;
 mod grid;
+mod interior;
 mod map;
 mod palette;
 mod svg;

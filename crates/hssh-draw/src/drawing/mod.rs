@@ -6,6 +6,8 @@ mod schematic;
 mod spring;
 mod unfold;
 
+use std::collections::BTreeMap;
+
 pub use directions::Bearings;
 
 use hssh_metrics::{Pose, SolveError};
@@ -28,6 +30,8 @@ pub struct Drawing {
     unit: f64,
     /// By place, where known: m², along the drawing's axes.
     covariances: Vec<Matrix2<f64>>,
+    /// The lines that links follow, where known, by the end at which the line begins.
+    ways: BTreeMap<MapOlp, Vec<Point>>,
 }
 
 /// Why there is no drawing.
@@ -98,7 +102,7 @@ impl Drawing {
         }
         let ends = directions::of_map(map, bearings)?;
         let unit = median_link_length(map, &poses);
-        Ok(Drawing { poses, ends, unit, covariances: Vec::new() })
+        Ok(Drawing { poses, ends, unit, covariances: Vec::new(), ways: BTreeMap::new() })
     }
 
     /// A drawing from the map alone: links about 1 long, paths as straight as they can be, places apart.
@@ -113,7 +117,7 @@ impl Drawing {
     pub fn schematic(map: &TopologicalMap, bearings: &Bearings) -> Result<Self, DrawingError> {
         let ends = directions::of_map(map, bearings)?;
         let poses = schematic::poses(map, &ends)?;
-        Ok(Drawing { poses, ends, unit: 1.0, covariances: Vec::new() })
+        Ok(Drawing { poses, ends, unit: 1.0, covariances: Vec::new(), ways: BTreeMap::new() })
     }
 
     /// The same drawing with the covariances of the places' positions, in the order of the places: drawn as
@@ -121,6 +125,23 @@ impl Drawing {
     #[must_use]
     pub fn with_covariances(self, covariances: Vec<Matrix2<f64>>) -> Self {
         Drawing { covariances, ..self }
+    }
+
+    /// The same drawing with links that follow given lines, as a robot drove them: each from the place of its first end to that of its
+    /// second one, in the unit and frame of the poses. Links without a line are curves from place to place.
+    #[must_use]
+    pub fn with_ways(self, ways: impl IntoIterator<Item = ([MapOlp; 2], Vec<[f64; 2]>)>) -> Self {
+        let ways = ways.into_iter().flat_map(|([from, to], line)| {
+            let line: Vec<Point> = line.into_iter().map(Point::from).collect();
+            let back = line.iter().rev().copied().collect();
+            [(from, line), (to, back)]
+        });
+        Drawing { ways: ways.collect(), ..self }
+    }
+
+    /// The line that the link of an end follows away from its place, if it is known.
+    pub(crate) fn way(&self, olp: MapOlp) -> Option<&[Point]> {
+        self.ways.get(&olp).map(Vec::as_slice)
     }
 
     /// The corners of the ellipse that holds a place with a probability of 95 %, if it is known and there is one.

@@ -6,7 +6,8 @@ use std::fmt::Write;
 use hssh_local::{Gateway, Lattice, LocalStar, OccupancyGrid, Skeleton};
 
 use super::cells::data_uri;
-use crate::svg::escape;
+use crate::interior::roomiest;
+use crate::svg::{Point, escape};
 
 /// The longer side of the picture in pixels.
 const SIZE: f64 = 1200.0;
@@ -183,15 +184,12 @@ impl Canvas {
         );
     }
 
-    /// The name of a region in the middle of the box around it.
+    /// The name of a region where there is most room in it.
     fn name(&mut self, region: &RegionPicture) {
-        let corners = || region.rings.iter().flatten();
-        let middle = [0, 1].map(|axis| {
-            let least = corners().map(|corner| corner[axis]).fold(f64::INFINITY, f64::min);
-            let greatest = corners().map(|corner| corner[axis]).fold(f64::NEG_INFINITY, f64::max);
-            (least + greatest) / 2.0
-        });
-        let [x, y] = self.at(middle);
+        let ring = |ring: &Vec<[f64; 2]>| ring.iter().copied().map(Point::from).collect();
+        let rings: Vec<Vec<Point>> = region.rings.iter().map(ring).collect();
+        let Some(middle) = roomiest(&rings, &[]) else { return };
+        let [x, y] = self.at(middle.into());
         let _ = writeln!(
             self.text,
             r##"<text x="{x:.1}" y="{y:.1}" dy="-0.9em" font-family="sans-serif" font-size="{:.1}" text-anchor="middle" fill="#222222">{}</text>"##,

@@ -1,10 +1,11 @@
-//! The building under a map: its regions as areas and its doors as lines.
+//! The building under a map: its regions as areas with names, and its doors as lines.
 
 use nalgebra::vector;
 
 use super::BuildingPicture;
+use super::clearance::Obstacles;
 use super::marks::Scene;
-use crate::svg::{Anchor, Canvas, Point, number};
+use crate::svg::{Anchor, Canvas, Point, number, text_width};
 
 /// The size of what regions are called, in pixels.
 const NAME_SIZE: f64 = 9.0;
@@ -26,7 +27,7 @@ impl BuildingPicture {
     }
 }
 
-/// Draws regions in their colors with what they are called, and doors across.
+/// Draws regions in their colors, and doors across.
 pub(super) fn draw_building(canvas: &mut Canvas, scene: &Scene, building: &BuildingPicture) {
     let at = |[x, y]: [f64; 2]| scene.on_canvas(vector![x, y]);
     canvas.open(r#"class="building""#);
@@ -47,14 +48,32 @@ pub(super) fn draw_building(canvas: &mut Canvas, scene: &Scene, building: &Build
             &format!(r##"class="door" stroke="#009e73" stroke-width="{width}" stroke-linecap="round""##),
         );
     }
+    canvas.close();
+}
+
+/// Writes what regions are called where there is room within them, with links and places drawn already.
+pub(super) fn draw_names(
+    canvas: &mut Canvas,
+    scene: &Scene,
+    building: &BuildingPicture,
+    obstacles: &mut Obstacles,
+) {
+    let at = |&[x, y]: &[f64; 2]| scene.on_canvas(vector![x, y]);
+    canvas.open(r#"class="regions""#);
     for region in building.regions.iter().filter(|region| !region.name.is_empty()) {
-        let Some(corners) = region.rings.first().filter(|ring| !ring.is_empty()) else { continue };
-        let fold = |by: fn(f64, f64) -> f64| {
-            [0, 1].map(|axis| corners.iter().map(|corner| corner[axis]).reduce(by).unwrap_or_default())
-        };
-        let (low, high) = (fold(f64::min), fold(f64::max));
-        let middle = at([(low[0] + high[0]) / 2.0, (low[1] + high[1]) / 2.0]);
-        canvas.text(middle, NAME_SIZE, Anchor::Middle, &region.name, r##"class="region" fill="#555555""##);
+        let rings: Vec<Vec<Point>> = region.rings.iter().map(|ring| ring.iter().map(at).collect()).collect();
+        let Some(middle) = obstacles.roomiest(&rings) else { continue };
+        canvas.text(
+            middle,
+            NAME_SIZE,
+            Anchor::Middle,
+            &region.name,
+            r##"class="region" fill="#555555" stroke="#ffffff" stroke-opacity="0.7" stroke-width="2" paint-order="stroke""##,
+        );
+        let half = text_width(&region.name, NAME_SIZE) / 2.0;
+        for part in [-0.7, 0.0, 0.7] {
+            obstacles.add(middle + vector![part * half, 0.0], NAME_SIZE / 2.0);
+        }
     }
     canvas.close();
 }

@@ -1,10 +1,11 @@
-//! Where around a place there is room: for the arrow to the current place and for star names.
+//! Where there is room: for the arrow to the current place, for star names and those of regions.
 
 use std::f64::consts::{FRAC_PI_4, TAU};
 
 use nalgebra::vector;
 
 use super::marks::{CLOSED_LENGTH, PENDING_LENGTH, Scene};
+use crate::interior::roomiest;
 use crate::svg::{Point, along};
 
 /// How many directions around a place are tried.
@@ -46,9 +47,20 @@ impl Obstacles {
         self.0.push((point, radius));
     }
 
+    /// Where within rings there is most room for a label.
+    pub(super) fn roomiest(&self, rings: &[Vec<Point>]) -> Option<Point> {
+        roomiest(rings, &self.0)
+    }
+
     /// The direction around `center` in which a label that covers the points at these distances
-    /// (pixels) has most room. `own_radius` is that of the place itself, which is no obstacle.
-    pub(crate) fn clearest_direction(&self, center: Point, distances: &[f64], own_radius: f64) -> Point {
+    /// (pixels) has most room, and how much: less than nothing if it covers something. `own_radius` is that of the place itself,
+    /// which is no obstacle.
+    pub(crate) fn clearest_direction(
+        &self,
+        center: Point,
+        distances: &[f64],
+        own_radius: f64,
+    ) -> (Point, f64) {
         let reach = distances.iter().copied().fold(0.0, f64::max) * 2.5;
         let near: Vec<(Point, f64)> = self
             .0
@@ -59,7 +71,7 @@ impl Obstacles {
                 distance < reach + radius && !(distance < 1e-6 && *radius <= own_radius)
             })
             .collect();
-        let mut best = (f64::NEG_INFINITY, vector![1.0, 0.0]);
+        let mut best = (vector![1.0, 0.0], f64::NEG_INFINITY);
         for step in 0..DIRECTIONS {
             // From the upper right on, clockwise; on the canvas y points down.
             let angle = -FRAC_PI_4 + TAU * f64::from(step) / f64::from(DIRECTIONS);
@@ -69,10 +81,10 @@ impl Obstacles {
                 near.iter().map(|(other, radius)| (other - point).norm() - radius).fold(reach, f64::min)
             };
             let room = distances.iter().map(|&distance| room(distance)).fold(reach, f64::min);
-            if room > best.0 + 1e-6 {
-                best = (room, direction);
+            if room > best.1 + 1e-6 {
+                best = (direction, room);
             }
         }
-        best.1
+        best
     }
 }

@@ -3,7 +3,7 @@
 use hssh_topology::{PlaceId, TopologicalMap};
 use nalgebra::vector;
 
-use super::building::draw_building;
+use super::building::{draw_building, draw_names};
 use super::clearance::Obstacles;
 use super::marks::Scene;
 use super::{MapOptions, measure_line};
@@ -49,7 +49,7 @@ pub fn draw_map(map: &TopologicalMap, drawing: &Drawing, options: &MapOptions) -
     if let Some(place) = options.current.filter(|&place| place.number() < map.place_count()) {
         let center = scene.on_canvas(drawing.position(place));
         let distances = [0.1, 0.2, 0.34].map(|part| RADIUS + part * UNIT);
-        let direction = obstacles.clearest_direction(center, &distances, RADIUS);
+        let (direction, _) = obstacles.clearest_direction(center, &distances, RADIUS);
         canvas.open(r#"class="current""#);
         scene.draw_pointer(&mut canvas, center, direction);
         canvas.close();
@@ -61,6 +61,9 @@ pub fn draw_map(map: &TopologicalMap, drawing: &Drawing, options: &MapOptions) -
         if let Some(name) = options.star_name(map.star(place)) {
             draw_star_name(&mut canvas, &scene, place, name, &mut obstacles);
         }
+    }
+    if let Some(building) = &options.building {
+        draw_names(&mut canvas, &scene, building, &mut obstacles);
     }
     draw_lines_of_text(&mut canvas, map, options);
     canvas.finish(MARGIN, options.title.as_deref().unwrap_or("Topological map"))
@@ -97,12 +100,17 @@ fn draw_place(canvas: &mut Canvas, scene: &Scene, place: PlaceId, options: &MapO
     canvas.close();
 }
 
-/// Writes the name of a place's star where there is most room beside the place.
+/// Writes the name of a place's star where there is most room beside the place, if there is any.
 fn draw_star_name(canvas: &mut Canvas, scene: &Scene, place: PlaceId, name: &str, obstacles: &mut Obstacles) {
     let center = scene.on_canvas(scene.drawing.position(place));
     let half_width = text_width(name, NAME_SIZE) / 2.0;
     let distance = scene.radius + 4.0 + NAME_SIZE / 2.0;
-    let direction = obstacles.clearest_direction(center, &[distance, distance + half_width], scene.radius);
+    let (direction, room) =
+        obstacles.clearest_direction(center, &[distance, distance + half_width], scene.radius);
+    // What would hide something else helps nobody.
+    if room < 0.0 {
+        return;
+    }
     // The text box touches the circle around the place: it is wider than high.
     let out = distance + (half_width - NAME_SIZE / 2.0).max(0.0) * direction.x.abs();
     let middle = center + direction * out;

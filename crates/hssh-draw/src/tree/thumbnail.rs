@@ -75,7 +75,7 @@ impl<'a> Thumbnail<'a> {
         if self.current.number() < self.map.place_count() {
             let center = scene.on_canvas(self.drawing.position(self.current));
             let distances = [0.3, 0.45, 0.6].map(|part| RADIUS + part * UNIT);
-            let direction = Obstacles::of(&scene).clearest_direction(center, &distances, RADIUS);
+            let (direction, _) = Obstacles::of(&scene).clearest_direction(center, &distances, RADIUS);
             scene.draw_pointer(canvas, center, direction);
         }
     }

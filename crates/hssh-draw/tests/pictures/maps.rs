@@ -2,7 +2,7 @@
 
 use std::f64::consts::TAU;
 
-use hssh_draw::{Bearings, Drawing, MapOptions, draw_map, map_to_dot};
+use hssh_draw::{Bearings, BuildingPicture, Drawing, MapOptions, RegionPicture, draw_map, map_to_dot};
 use hssh_metrics::Pose;
 use hssh_topology::{PlaceId, StarCatalog, TopologicalMap};
 
@@ -69,14 +69,7 @@ fn links_leave_their_places_in_the_direction_of_the_end() {
         let (map, _) = random_planar(12, 6, seed);
         let svg = schematic(&map, &MapOptions::default());
         let places = drawn_ends(&svg);
-        let curves: Vec<Vec<f64>> = svg
-            .lines()
-            .filter(|line| line.contains("<path") && !line.contains("#ffffff"))
-            .map(|line| {
-                let numbers = attribute(line, "d").unwrap().split([' ', ',']);
-                numbers.filter_map(|text| text.parse().ok()).collect()
-            })
-            .collect();
+        let curves = curves(&svg);
         assert_eq!(curves.len(), map.links().count());
         for ((from, to), curve) in map.links().zip(curves) {
             let n = curve.len();
@@ -95,6 +88,64 @@ fn links_leave_their_places_in_the_direction_of_the_end() {
             }
         }
     }
+}
+
+/// The numbers of the curves of links, in the order of the links.
+fn curves(svg: &str) -> Vec<Vec<f64>> {
+    let links = svg.lines().filter(|line| line.contains("<path") && !line.contains("#ffffff"));
+    let numbers = |line: &str| {
+        let numbers = attribute(line, "d").unwrap().split([' ', ',']);
+        numbers.filter_map(|text| text.parse().ok()).collect()
+    };
+    links.map(numbers).collect()
+}
+
+#[test]
+fn a_link_passes_the_points_of_its_line_on_the_way_between_its_ends() {
+    let map = Grid { rows: 1, columns: 2 }.map(&mut StarCatalog::new());
+    let poses = vec![Pose::new(0.0, 0.0, 0.0), Pose::new(10.0, 0.0, 0.0)];
+    let line = [[0.0, 0.0], [0.1, 0.2], [3.0, 4.0], [7.0, -4.0], [10.0, 0.0]];
+    let (from, to) = map.links().next().unwrap();
+    let straight = Drawing::measured(&map, poses, &Bearings::none()).unwrap();
+    let [plain, forth, back] = [
+        straight.clone(),
+        straight.clone().with_ways([([from, to], line.to_vec())]),
+        straight.with_ways([([to, from], line.into_iter().rev().collect())]),
+    ]
+    .map(|drawing| draw_map(&map, &drawing, &MapOptions::default()));
+    assert_eq!(forth, back);
+    let (plain, driven) = (curves(&plain).remove(0), curves(&forth).remove(0));
+    let at = |numbers: &[f64], from_end: bool| {
+        let start = if from_end { numbers.len() - 2 } else { 0 };
+        [numbers[start], numbers[start + 1]]
+    };
+    assert_eq!(at(&plain, false), at(&driven, false));
+    assert_eq!(at(&plain, true), at(&driven, true));
+    // Two points are within the first place's circle; the two others are passed, at 92 pixels for 10 m, y down.
+    assert_eq!(driven.len(), 2 + 3 * 6);
+    let passed = [[driven[6], driven[7]], [driven[12], driven[13]]];
+    assert_eq!(passed, [[27.6, -36.8], [64.4, 36.8]]);
+}
+
+#[test]
+fn names_of_regions_lie_in_them() {
+    let map = Grid { rows: 1, columns: 2 }.map(&mut StarCatalog::new());
+    let poses = vec![Pose::new(0.0, 0.0, 0.0), Pose::new(10.0, 0.0, 0.0)];
+    let drawing = Drawing::measured(&map, poses, &Bearings::none()).unwrap();
+    // A corridor around the corner: the middle of its box is not in it.
+    let corner = [[0.0, 0.0], [40.0, 0.0], [40.0, 4.0], [4.0, 4.0], [4.0, 40.0], [0.0, 40.0]];
+    let region =
+        RegionPicture { rings: vec![corner.to_vec()], name: "corner".to_owned(), ..RegionPicture::default() };
+    let building = BuildingPicture { regions: vec![region], doors: Vec::new() };
+    let svg = draw_map(&map, &drawing, &MapOptions { building: Some(building), ..MapOptions::default() });
+    let ring = svg.lines().find(|line| line.contains("Z\"")).and_then(|line| attribute(line, "d")).unwrap();
+    let corners: Vec<f64> = ring.split(['M', 'L', 'Z', ' ']).filter_map(|text| text.parse().ok()).collect();
+    let name = svg.lines().find(|line| line.contains(">corner<")).unwrap();
+    // In metres: the first corner is the origin and the second one 40 m to the right.
+    let scale = 40.0 / (corners[2] - corners[0]);
+    let [x, y] = [(number(name, "x") - corners[0]) * scale, (corners[1] - number(name, "y")) * scale];
+    assert!((0.0..4.0).contains(&x) || (0.0..4.0).contains(&y), "{x} {y}");
+    assert!((0.0..40.0).contains(&x) && (-0.5..40.0).contains(&y), "{x} {y}");
 }
 
 #[test]

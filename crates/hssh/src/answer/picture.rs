@@ -5,7 +5,7 @@ use hssh_draw::{
 };
 use hssh_local::RegionNumber;
 use hssh_metrics::Pose;
-use hssh_topology::{PlaceId, TopologicalMap};
+use hssh_topology::{MapOlp, PlaceId, TopologicalMap};
 use nalgebra::Matrix2;
 
 use super::building::{AnsweredBuilding, AnsweredRegion};
@@ -47,9 +47,9 @@ impl MapPicture {
             .map(|place| place.pose.map(|pose| Pose { x: pose.x, y: pose.y, theta: pose.theta }))
             .collect();
         let drawing = match placed {
-            Some(poses) => {
-                Drawing::measured(&rebuilt.map, poses, &bearings)?.with_covariances(covariances(map))
-            }
+            Some(poses) => Drawing::measured(&rebuilt.map, poses, &bearings)?
+                .with_covariances(covariances(map))
+                .with_ways(ways(map, &rebuilt.map)?),
             None => Drawing::schematic(&rebuilt.map, &bearings)?,
         };
         let options = MapOptions {
@@ -104,6 +104,17 @@ impl MapPicture {
     pub fn to_dot(&self) -> String {
         map_to_dot(&self.rebuilt.map, &self.rebuilt.catalog, &self.options)
     }
+}
+
+/// The ways of the links as they were driven, where that is known.
+fn ways(
+    map: &AnsweredMap,
+    grown: &TopologicalMap,
+) -> Result<Vec<([MapOlp; 2], Vec<[f64; 2]>)>, DisagreementError> {
+    let sketch = map.sketch()?;
+    let ends = sketch.links.iter().map(|&(from, to)| [from, to].map(|end| grown.olp(end.place, end.olp)));
+    let driven = ends.zip(&map.links).filter(|(_, link)| !link.way.is_empty());
+    Ok(driven.map(|(ends, link)| (ends, link.way.clone())).collect())
 }
 
 /// Of the position of each place, if they are known.

@@ -49,7 +49,7 @@ function ellipseOf({ x, y, ellipse }) {
   return svg("ellipse", { rx, ry: Math.max(ry, 0.01), transform: `translate(${x} ${-y}) rotate(${(-turn * 180) / Math.PI})`, class: "ellipse" });
 }
 
-// A link leaves and enters its places in the direction of the ends.
+// A link leaves and enters its places in the direction of the ends; where the robot's way is known, it follows the shortest of its travels.
 function linkOf(view, data, link, choose) {
   const [from, to] = link.ends.map(({ place, end }) => ({ ...view.places[place], direction: view.places[place].directions[end] }));
   const gap = apart(from, to);
@@ -58,7 +58,10 @@ function linkOf(view, data, link, choose) {
     const reach = gap / 3 + 0.22 * Math.min(view.unit, 2 * gap || view.unit) * (1 - Math.cos(at.direction - ahead));
     return `${at.x + reach * Math.cos(at.direction)} ${-at.y - reach * Math.sin(at.direction)}`;
   };
-  const d = `M ${from.x} ${-from.y} C ${handle(from, chord)} ${handle(to, chord + Math.PI)} ${to.x} ${-to.y}`;
+  const way = drivenOf(view, data, link);
+  const d = way
+    ? `M ${way.map(([x, y]) => `${x} ${-y}`).join(" L ")}`
+    : `M ${from.x} ${-from.y} C ${handle(from, chord)} ${handle(to, chord + Math.PI)} ${to.x} ${-to.y}`;
   const path = view.pathOf.get(key(link.ends[0].place, link.ends[0].end));
   const isLatest = view.kind !== "map" && link.travels.includes(view.model.visits.length - 2);
   const names = ["link", pathClass(view, path), isLatest ? "latest" : ""].filter(Boolean).join(" ");
@@ -66,6 +69,18 @@ function linkOf(view, data, link, choose) {
   const click = () => choose({ kind: "way", travel: link.travels[0] });
   return svg("g", { class: names, role: "button", tabindex: -1, "aria-label": label, "data-way": link.number, click, keydown: event => isPress(event) && click() },
     svg("path", { d, class: "reach" }), svg("path", { d, class: "line" }), svg("title", {}, label));
+}
+
+// The shortest of the ways that the robot drove along a link, from the middle of one place to that of the other.
+function drivenOf(view, data, link) {
+  if (!view.map.way?.length || !["map", "part"].includes(view.kind)) return null;
+  const middle = visit => { const { x, y } = view.places[view.model.visits[visit].place]; return [x, y]; };
+  const ways = link.travels.filter(travel => data.visits[travel + 1]?.at !== undefined).map(travel => {
+    const [first, last] = [data.visits[travel].at, data.visits[travel + 1].at];
+    return [middle(travel), ...view.map.way.slice(first, last + 1), middle(travel + 1)];
+  });
+  const length = way => way.slice(1).reduce((sum, [x, y], index) => sum + Math.hypot(x - way[index][0], y - way[index][1]), 0);
+  return ways.length ? ways.reduce((best, way) => (length(way) < length(best) ? way : best)) : null;
 }
 
 // Colors come again dashed when they are used up; a path with a single place is gray.
