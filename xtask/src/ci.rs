@@ -1,7 +1,11 @@
 //! Everything that has to pass before a change is taken; `.ci/run` calls it.
 
 use std::error::Error;
+use std::ffi::OsStr;
+use std::io;
 use std::path::Path;
+use std::process::{Command, Output, Stdio};
+use std::thread::{self, JoinHandle};
 use std::time::Instant;
 
 use xshell::{Shell, cmd};
@@ -24,21 +28,24 @@ pub(crate) fn run() -> Result<(), Box<dyn Error>> {
     // The same random cases in every run: a change is refused for what it breaks, not for a case that was broken before.
     let tests = cmd!(shell, "cargo test --workspace").env("PROPTEST_RNG_SEED", "2005");
     step("tests", || Ok(tests.run()?))?;
+    // As the tests have built it: a release takes longer to compile than all of these take to run.
+    let run = root::built("hssh-experiments");
+    // The logs keep one core busy, and so does what is done beside them.
+    let logs = std::env::var_os("HSSH_DATA").map(|data| Beside::start("logs", &run, [OsStr::new("log"), &data]));
+    let logs = logs.transpose()?;
     step("page", || page::run(None))?;
     step("examples", examples)?;
+    match logs {
+        Some(logs) => logs.finish()?,
+        None => println!("== logs: skipped, for HSSH_DATA names no data folder\n"),
+    }
     step("python", || python::test(&shell))?;
     step("documentation", || {
         Ok(cmd!(shell, "cargo doc --workspace --no-deps").env("RUSTDOCFLAGS", "-Dwarnings").run()?)
     })?;
-    // As the tests have built it: a release takes longer to compile than all of these take to run.
-    let run = root::built("hssh-experiments");
     step("experiments", || Ok(cmd!(shell, "{run} experiment --all --check --threads 0").run()?))?;
     step("robot", || Ok(cmd!(shell, "{run} robot --check --threads 0").run()?))?;
     step("theory", || Ok(cmd!(shell, "{run} theory --small --optional --threads 0").run()?))?;
-    match std::env::var_os("HSSH_DATA") {
-        Some(data) => step("logs", || Ok(cmd!(shell, "{run} log {data}").run()?))?,
-        None => println!("== logs: skipped, for HSSH_DATA names no data folder\n"),
-    }
     println!("== everything passed");
     Ok(())
 }
@@ -83,4 +90,34 @@ fn step(name: &str, work: impl FnOnce() -> Result<(), Box<dyn Error>>) -> Result
     work().map_err(|error| format!("{name}: {error}"))?;
     println!("== {name}: {:.0} s\n", started.elapsed().as_secs_f64());
     Ok(())
+}
+
+/// A program that runs beside other steps. What it prints is shown when it is waited for.
+struct Beside {
+    name: &'static str,
+    started: Instant,
+    ran: JoinHandle<io::Result<Output>>,
+}
+
+impl Beside {
+    fn start<'a>(
+        name: &'static str,
+        program: &Path,
+        arguments: impl IntoIterator<Item = &'a OsStr>,
+    ) -> io::Result<Self> {
+        let child = Command::new(program).args(arguments).stdout(Stdio::piped()).spawn()?;
+        Ok(Beside { name, started: Instant::now(), ran: thread::spawn(|| child.wait_with_output()) })
+    }
+
+    fn finish(self) -> Result<(), Box<dyn Error>> {
+        let Beside { name, started, ran } = self;
+        println!("== {name}");
+        let Output { status, stdout, .. } = ran.join().map_err(|_| format!("{name}: nobody waited for it"))??;
+        print!("{}", String::from_utf8_lossy(&stdout));
+        if !status.success() {
+            return Err(format!("{name}: {status}").into());
+        }
+        println!("== {name}: {:.0} s, beside others\n", started.elapsed().as_secs_f64());
+        Ok(())
+    }
 }
