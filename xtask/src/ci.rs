@@ -31,7 +31,8 @@ pub(crate) fn run() -> Result<(), Box<dyn Error>> {
     // As the tests have built it: a release takes longer to compile than all of these take to run.
     let run = root::built("hssh-experiments");
     // The logs keep one core busy, and so does what is done beside them.
-    let logs = std::env::var_os("HSSH_DATA").map(|data| Beside::start("logs", &run, [OsStr::new("log"), &data]));
+    let logs =
+        std::env::var_os("HSSH_DATA").map(|data| Beside::start("logs", &run, [OsStr::new("log"), &data]));
     let logs = logs.transpose()?;
     step("page", || page::run(None))?;
     step("examples", examples)?;
@@ -112,7 +113,8 @@ impl Beside {
     fn finish(self) -> Result<(), Box<dyn Error>> {
         let Beside { name, started, ran } = self;
         println!("== {name}");
-        let Output { status, stdout, .. } = ran.join().map_err(|_| format!("{name}: nobody waited for it"))??;
+        let Output { status, stdout, .. } =
+            ran.join().map_err(|_| format!("{name}: nobody waited for it"))??;
         print!("{}", String::from_utf8_lossy(&stdout));
         if !status.success() {
             return Err(format!("{name}: {status}").into());
