@@ -1,8 +1,8 @@
-//! The fine alignment: Gauss–Newton from hits to the lines of the surfaces nearest to them, with what
-//! odometry believes as a prior, so that it decides where surfaces say nothing.
+//! The fine alignment: Gauss–Newton from hits to the lines of the surfaces nearest to them, or to posts where little else is in sight, with
+//! what odometry believes as a prior, so that it decides where neither says anything.
 
 use hssh_metrics::{Covariance, Pose, UncertainPose, wrap_angle};
-use nalgebra::{Matrix3, Vector2, Vector3};
+use nalgebra::{Matrix2x3, Matrix3, Vector2, Vector3};
 
 use super::cloud::{Cloud, SurfacePoint};
 use super::options::MatchOptions;
@@ -14,6 +14,10 @@ const ITERATIONS: usize = 12;
 const DONE: (f64, f64) = (1e-4, 1e-5);
 /// A surface that faces more than about 40° away from the hit's own is another one.
 const FACING: f64 = 0.75;
+/// Where fewer surfaces are in sight than this, posts and trunks are matched, too: what stands alone…
+const FEW: usize = 40;
+/// …and is not seen at the same spot from everywhere, in metres, standard deviation.
+const POST: f64 = 0.15;
 
 /// The pose that fits both the surfaces and the odometry best, with its covariance: of (x, y, θ) in the
 /// frame of the cloud. `start` is where to begin, `predicted` what odometry believes. Hits that were matched with the same surfaces before
@@ -50,7 +54,7 @@ pub(crate) fn align(
     UncertainPose { mean: pose, covariance: with_floor(&information, predicted, new, options) }
 }
 
-/// The Hessian and gradient of half the weighted squared distances from hits to lines.
+/// The Hessian and gradient of half the weighted squared distances from hits to lines, and to posts.
 fn normal_equations(
     cloud: &Cloud,
     surfaces: &[SurfacePoint],
@@ -62,10 +66,22 @@ fn normal_equations(
     let weight = 1.0 / (options.hit_noise.powi(2) * options.hits_per_observation);
     let mut hessian = Matrix3::zeros();
     let mut gradient = Vector3::zeros();
+    let has_few = surfaces.len() < FEW;
     for surface in surfaces {
         let arm = rotation * surface.position;
         let hit = pose.translation() + arm;
-        let Some((line, normal)) = facing(cloud, surface, hit, rotation, reach) else { continue };
+        let Some((line, normal)) = facing(cloud, surface, hit, rotation, reach) else {
+            if let Some(post) = cloud.nearest_post(hit, reach).filter(|_| has_few && surface.normal.is_none())
+            {
+                let off = hit - post.position;
+                let jacobian = Matrix2x3::new(1.0, 0.0, -arm.y, 0.0, 1.0, arm.x);
+                let weight = weight * (options.hit_noise / POST).powi(2);
+                let robust = weight / (1.0 + off.norm_squared() / (2.0 * POST).powi(2));
+                hessian += robust * jacobian.transpose() * jacobian;
+                gradient += robust * jacobian.transpose() * off;
+            }
+            continue;
+        };
         let distance = normal.dot(&(hit - line));
         let jacobian = Vector3::new(normal.x, normal.y, normal.y * arm.x - normal.x * arm.y);
         // Cauchy's weight: hits off their line by several standard deviations count little.

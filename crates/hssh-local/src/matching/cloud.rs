@@ -117,6 +117,8 @@ pub(crate) struct Cloud {
     points: Vec<SurfacePoint>,
     /// For each bucket, the numbers of its points that have a normal, with where they are.
     buckets: FxHashMap<(i32, i32), Vec<Placed>>,
+    /// The same for points without one: posts and trunks, which stand alone.
+    posts: FxHashMap<(i32, i32), Vec<Placed>>,
 }
 
 impl Cloud {
@@ -130,9 +132,8 @@ impl Cloud {
             if self.nearest(position, normal, spacing).is_some() {
                 continue;
             }
-            if normal.is_some() {
-                self.buckets.entry(bucket(position)).or_default().push((position, self.points.len() as u32));
-            }
+            let buckets = if normal.is_some() { &mut self.buckets } else { &mut self.posts };
+            buckets.entry(bucket(position)).or_default().push((position, self.points.len() as u32));
             self.points.push(SurfacePoint { position, normal });
         }
     }
@@ -150,20 +151,35 @@ impl Cloud {
         facing: Option<Vector2<f64>>,
         reach: f64,
     ) -> Option<&SurfacePoint> {
+        let is_seen_so = |normal: Vector2<f64>| facing.is_none_or(|own| own.dot(&normal) > 0.0);
+        self.nearest_of(&self.buckets, position, reach, |point| point.normal.is_some_and(is_seen_so))
+    }
+
+    /// The nearest point without a normal within `reach` metres, which is at most a bucket's side.
+    pub(crate) fn nearest_post(&self, position: Vector2<f64>, reach: f64) -> Option<&SurfacePoint> {
+        self.nearest_of(&self.posts, position, reach, |_| true)
+    }
+
+    fn nearest_of(
+        &self,
+        buckets: &FxHashMap<(i32, i32), Vec<Placed>>,
+        position: Vector2<f64>,
+        reach: f64,
+        counts: impl Fn(&SurfacePoint) -> bool,
+    ) -> Option<&SurfacePoint> {
         let ((first_column, first_row), (last_column, last_row)) =
             (bucket(position.add_scalar(-reach)), bucket(position.add_scalar(reach)));
         let mut best = None;
         let mut least = reach * reach;
         for row in first_row..=last_row {
             for column in first_column..=last_column {
-                for &(there, index) in self.buckets.get(&(column, row)).into_iter().flatten() {
+                for &(there, index) in buckets.get(&(column, row)).into_iter().flatten() {
                     let distance = (there - position).norm_squared();
                     if distance >= least {
                         continue;
                     }
                     let point = &self.points[index as usize];
-                    let is_seen_so = |normal: Vector2<f64>| facing.is_none_or(|own| own.dot(&normal) > 0.0);
-                    if point.normal.is_some_and(is_seen_so) {
+                    if counts(point) {
                         (best, least) = (Some(point), distance);
                     }
                 }

@@ -14,7 +14,9 @@ const BLUR: f64 = 0.15;
 const OUTLIER: f64 = 0.05;
 /// Steps of the search: metres, which are a cell, and radians.
 const STEP: (f64, f64) = (CELL, 0.02);
-/// The most steps to each side.
+/// Metres up to which a field has cells of that size, and is searched in such steps.
+pub(super) const USUAL_REACH: f64 = 20.0;
+/// The most steps to each side, and around so many times as many as steps are smaller.
 const MOST_STEPS: f64 = 12.0;
 /// After so many hits it is seen whether a pose can still be the best.
 const AT_ONCE: usize = 16;
@@ -22,24 +24,28 @@ const AT_ONCE: usize = 16;
 /// How well hits fit, as a grid of log-likelihoods around the surfaces seen before.
 pub(super) struct LikelihoodField {
     origin: Vector2<f64>,
+    /// How many times larger than usual cells and blur are, and smaller the turns that the search tries: far hits move much with a turn.
+    scale: f64,
     width: usize,
     height: usize,
     cells: Vec<f32>,
 }
 
 impl LikelihoodField {
-    /// The field of a cloud within `reach` metres of `center`.
+    /// The field of a cloud within `reach` metres of `center`, the coarser the farther it reaches.
     pub(super) fn new(cloud: &Cloud, center: Vector2<f64>, reach: f64) -> Self {
-        let side = (2.0 * reach / CELL).ceil() as usize;
+        let scale = (reach / USUAL_REACH).max(1.0);
+        let cell = scale * CELL;
+        let side = (2.0 * reach / cell).ceil() as usize;
         let origin = center - vector![reach, reach];
         let off_all = OUTLIER.ln() as f32;
         let mut field =
-            LikelihoodField { origin, width: side, height: side, cells: vec![off_all; side * side] };
+            LikelihoodField { origin, scale, width: side, height: side, cells: vec![off_all; side * side] };
         // The nearest point of each cell is the one that speaks for it: squared distances in cells.
         let mut squared = vec![f64::INFINITY; side * side];
         let radius = (3.0 * BLUR / CELL).ceil() as i64;
         for point in cloud.points() {
-            let at = (point.position - origin) / CELL;
+            let at = (point.position - origin) / cell;
             let (column, row) = (at.x.floor() as i64, at.y.floor() as i64);
             let within = |at: i64, side: usize| {
                 (at - radius).clamp(0, side as i64) as usize..(at + radius + 1).clamp(0, side as i64) as usize
@@ -79,7 +85,7 @@ impl LikelihoodField {
 
     /// The column and the row of the cell that a position is in.
     fn cell(&self, position: Vector2<f64>) -> (i64, i64) {
-        let at = (position - self.origin) / CELL;
+        let at = (position - self.origin) / (self.scale * CELL);
         (at.x.floor() as i64, at.y.floor() as i64)
     }
 
@@ -101,18 +107,19 @@ pub(super) fn search(
 ) -> Pose {
     let information = predicted.covariance.information();
     let spread = predicted.covariance.matrix().diagonal().map(f64::sqrt) * sigmas;
-    let steps = |spread: f64, step: f64| (spread / step).ceil().min(MOST_STEPS) as i32;
-    let (across, around) = (steps(spread.x.max(spread.y), STEP.0), steps(spread.z, STEP.1));
+    let (cell, turn) = (STEP.0 * field.scale, STEP.1 / field.scale);
+    let across = (spread.x.max(spread.y) / cell).ceil().min(MOST_STEPS) as i32;
+    let around = (spread.z / turn).ceil().min(MOST_STEPS * field.scale) as i32;
     let mut best = (f64::NEG_INFINITY, predicted.mean);
-    for turn in -around..=around {
-        let turned = Pose { theta: predicted.mean.theta + f64::from(turn) * STEP.1, ..predicted.mean };
+    for turned_by in (-around..=around).map(|step| f64::from(step) * turn) {
+        let turned = Pose { theta: predicted.mean.theta + turned_by, ..predicted.mean };
         let rotation = turned.rotation();
         let hit = |surface: &SurfacePoint| field.cell(turned.translation() + rotation * surface.position);
         let hits: Vec<(i64, i64)> = surfaces.iter().map(hit).collect();
         for row in -across..=across {
             for column in -across..=across {
-                let shift = vector![f64::from(column), f64::from(row)] * STEP.0;
-                let off = Vector3::new(shift.x, shift.y, f64::from(turn) * STEP.1);
+                let shift = vector![f64::from(column), f64::from(row)] * cell;
+                let off = Vector3::new(shift.x, shift.y, turned_by);
                 let prior = -0.5 * off.dot(&(information.matrix() * off));
                 let cells = (i64::from(column), i64::from(row));
                 // Every hit speaks against a pose or not at all, so that the sum only falls.

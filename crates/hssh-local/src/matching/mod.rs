@@ -2,6 +2,7 @@
 //! and decides along corridors, which look the same everywhere (the control level of section 2.1.1).
 
 mod align;
+mod bend;
 mod calibrated;
 mod cloud;
 mod correlate;

@@ -5,8 +5,9 @@ use std::collections::VecDeque;
 use hssh_metrics::{Pose, UncertainPose, UncertaintyError};
 
 use super::align::align;
+use super::bend::Bend;
 use super::cloud::{Cloud, SurfacePoint, filled, surfaces};
-use super::correlate::{LikelihoodField, search};
+use super::correlate::{LikelihoodField, USUAL_REACH, search};
 use super::options::MatchOptions;
 use super::outlook::Outlook;
 use crate::carmen::LaserLog;
@@ -25,8 +26,6 @@ const SUSPICION: f64 = -0.3;
 const PRICE: f64 = 6.0;
 /// With fewer surfaces in sight, which may be people who move, odometry is not doubted.
 const MUCH: usize = 40;
-/// The coarse search goes by what was hit nearer than this, in metres.
-const COARSE_REACH: f64 = 20.0;
 /// A search this wide, in metres, is made with a part of the surfaces.
 const WIDE: f64 = 0.5;
 
@@ -84,16 +83,23 @@ struct Keyframe {
 struct Reference {
     cloud: Cloud,
     field: LikelihoodField,
+    /// The coarse search goes by what was hit nearer than this, in metres.
+    coarse_reach: f64,
 }
 
 impl Reference {
-    fn new<'a>(keyframes: impl Iterator<Item = &'a Keyframe>, center: Pose, options: &MatchOptions) -> Self {
+    fn new<'a>(
+        keyframes: impl Iterator<Item = &'a Keyframe>,
+        center: Pose,
+        coarse_reach: f64,
+        options: &MatchOptions,
+    ) -> Self {
         let mut cloud = Cloud::default();
         for keyframe in keyframes {
             cloud.insert(keyframe.outlook.pose(), &keyframe.surfaces, options.spacing / 2.0);
         }
-        let field = LikelihoodField::new(&cloud, center.translation(), options.reach.min(COARSE_REACH));
-        Reference { cloud, field }
+        let field = LikelihoodField::new(&cloud, center.translation(), coarse_reach);
+        Reference { cloud, field, coarse_reach }
     }
 }
 
@@ -106,13 +112,23 @@ struct Seen {
     near: Vec<SurfacePoint>,
 }
 
+/// How far the coarse search has to look, in metres, so that surfaces are enough to go by: as far as usual, or farther where little is near.
+fn coarse_reach(surfaces: &[SurfacePoint], options: &MatchOptions) -> f64 {
+    let mut reach = USUAL_REACH.min(options.reach);
+    let within = |reach: f64| surfaces.iter().filter(|surface| surface.position.norm() < reach).count();
+    while reach < options.farthest_reach && within(reach) < MUCH.min(surfaces.len()) {
+        reach = (1.5 * reach).min(options.farthest_reach);
+    }
+    reach
+}
+
 impl Seen {
-    fn new(scan: &Scan, options: &MatchOptions) -> Self {
+    fn new(scan: &Scan, coarse_reach: f64, options: &MatchOptions) -> Self {
         let mut all = surfaces(scan, options.reach, options.spacing);
         if all.len() < MUCH {
             all = surfaces(scan, options.farthest_reach, options.spacing);
         }
-        let near = all.iter().filter(|surface| surface.position.norm() < COARSE_REACH).copied().collect();
+        let near = all.iter().filter(|surface| surface.position.norm() < coarse_reach).copied().collect();
         Seen { all, near }
     }
 
@@ -141,14 +157,26 @@ pub struct Tracker {
     fit: f64,
     keyframes: VecDeque<Keyframe>,
     reference: Reference,
+    /// What odometry gets wrong with every metre.
+    bend: Bend,
+    /// Whether the last scan shows few surfaces.
+    sees_little: bool,
 }
 
 impl Tracker {
     /// A tracker that has seen nothing yet.
     #[must_use]
     pub fn new(options: MatchOptions) -> Self {
-        let reference = Reference::new(std::iter::empty(), Pose::IDENTITY, &options);
-        Tracker { options, last: None, fit: 0.0, keyframes: VecDeque::new(), reference }
+        let reference = Reference::new(std::iter::empty(), Pose::IDENTITY, USUAL_REACH, &options);
+        Tracker {
+            options,
+            last: None,
+            fit: 0.0,
+            keyframes: VecDeque::new(),
+            reference,
+            bend: Bend::default(),
+            sees_little: false,
+        }
     }
 
     /// Where the next scan was taken. `odometry` has the raw poses since the scan before, that of the scan
@@ -157,8 +185,16 @@ impl Tracker {
     /// # Panics
     /// If there is no raw pose.
     pub fn add(&mut self, scan: &Scan, odometry: &[Pose]) -> TrackedScan {
+        let told = self.options.odometry.motion(odometry);
         let worst = self.options.worst_odometry.map(|noise| noise.motion(odometry));
-        self.add_moved(scan, &self.options.odometry.motion(odometry), worst.as_ref())
+        // What scans show they show without it.
+        let straight = |motion| if self.sees_little { self.bend.straightened(&motion) } else { motion };
+        let (believed, worst) = (straight(told), worst.map(straight));
+        let tracked = self.add_moved(scan, &believed, worst.as_ref());
+        if let Some(known) = &tracked.step {
+            self.bend.learn(&told, &believed, known);
+        }
+        tracked
     }
 
     /// Where the next scan was taken, of which it is known how the robot moved since the scan before; and how uncertain that is at worst.
@@ -168,7 +204,7 @@ impl Tracker {
         motion: &UncertainPose,
         worst: Option<&UncertainPose>,
     ) -> TrackedScan {
-        let seen = Seen::new(scan, &self.options);
+        let seen = Seen::new(scan, self.reference.coarse_reach, &self.options);
         let tracked = match &self.last {
             None => TrackedScan { pose: Pose::IDENTITY, step: None, travelled: 0.0 },
             Some(last) => {
@@ -195,8 +231,10 @@ impl Tracker {
             let outlook = Outlook::new(pose, scan.clone());
             self.keyframes.push_back(Keyframe { travelled, surfaces: filled(&seen.all), outlook });
             self.keyframes.retain(|keyframe| travelled - keyframe.travelled <= self.options.memory);
-            self.reference = Reference::new(self.keyframes.iter().rev(), pose, &self.options);
+            let reach = coarse_reach(&seen.all, &self.options);
+            self.reference = Reference::new(self.keyframes.iter().rev(), pose, reach, &self.options);
         }
+        self.sees_little = seen.all.len() < MUCH;
         self.last = Some(tracked);
         tracked
     }

@@ -1,6 +1,6 @@
 //! Scan matching: it undoes the errors of odometry where walls tell, and knows where they do not.
 
-use hssh_local::{LaserLog, MatchOptions, Track, track, track_calibrated};
+use hssh_local::{LaserLog, MatchOptions, Track, TrackedScan, track, track_calibrated};
 use hssh_metrics::Pose;
 
 use crate::simulator::{Walls, around, drive, log};
@@ -158,4 +158,38 @@ fn a_reversed_step_is_found_out() {
             assert!(found.translation().norm() < 0.1 && found.theta.abs() < 0.02, "{reversed}: {found:?}");
         }
     }
+}
+
+/// Over a lawn, 14 m from corner to corner, with wheels that err by so much with each step, twice to one side and twice to the other: by how many
+/// metres and radians the track is off at worst.
+fn over_a_lawn(walls: &Walls, error: f64) -> (f64, f64) {
+    let poses = drive(&[[0.0, 0.0], [14.0, 0.0]], 0.7);
+    let mut odometry = vec![Pose::IDENTITY];
+    for (step, pair) in poses.windows(2).enumerate() {
+        let wrong = Pose { theta: if step % 4 < 2 { error } else { -error }, ..pair[0].between(pair[1]) };
+        odometry.push(odometry[step].compose(wrong));
+    }
+    let log = LaserLog::read(log(walls, &poses, &odometry).as_bytes()).unwrap();
+    let track = track(&log, &MatchOptions::default(), |_| ());
+    let off = |(scan, pose): (&TrackedScan, &Pose)| pose.between(scan.pose);
+    let offs: Vec<Pose> = track.scans.iter().zip(&poses).map(off).collect();
+    let worst = |of: fn(&Pose) -> f64| offs.iter().map(of).fold(0.0, f64::max);
+    (worst(|off| off.translation().norm()), worst(|off| off.theta.abs()))
+}
+
+/// A house so far away that it jumps by metres when the robot seems to turn.
+#[test]
+fn a_far_house_holds_the_heading_of_who_crosses_a_lawn() {
+    let house = around(&[[[24.0, -12.0], [34.0, -3.0]], [[22.0, 3.0], [34.0, 13.0]]]);
+    let (metres, radians) = over_a_lawn(&house, 0.1);
+    assert!(metres < 0.2 && radians < 0.01, "{metres} {radians}");
+}
+
+/// Five trunks, of which a scan shows a few hits each, and nothing else.
+#[test]
+fn trunks_hold_the_heading_where_nothing_else_does() {
+    let trunk = |[x, y]: [f64; 2]| [[x - 0.25, y - 0.25], [x + 0.25, y + 0.25]];
+    let trunks = [[12.0, 6.0], [18.0, -5.0], [24.0, 4.0], [27.0, -9.0], [9.0, -8.0]].map(trunk);
+    let (metres, radians) = over_a_lawn(&around(&trunks), 0.03);
+    assert!(metres < 0.3 && radians < 0.03, "{metres} {radians}");
 }
