@@ -9,6 +9,8 @@ use std::ops::RangeInclusive;
 use super::raster::{Raster, Vector, length, minus, plus, point, toward};
 use crate::grid::{Cell, Lattice};
 
+/// So far a line runs along a diagonal, in metres, to at least one side of where a circle is tried.
+const RUN: f64 = 0.25;
 /// From one direction to the center to the next that is tried, in radians, and how many to either side of the diagonal.
 const TURN: f64 = PI / 30.0;
 const TURNS: i32 = 2;
@@ -106,7 +108,8 @@ impl<F: Fn(usize) -> bool> Finder<'_, F> {
     fn seeds(&self) -> impl Iterator<Item = (Cell, f64)> {
         let lattice: Lattice = self.raster.lattice;
         let (width, height) = (lattice.width() as usize, lattice.height() as usize);
-        let frame = (self.thickness + 2.0).ceil() as usize;
+        let run = (self.raster.cells(RUN) / 2.0_f64.sqrt()).round().max(2.0) as isize;
+        let frame = (self.thickness + 2.0).ceil() as usize + run as usize + 2;
         let rows = frame..height.saturating_sub(frame);
         let inner =
             rows.flat_map(move |row| row * width + frame..(row * width + width.saturating_sub(frame)));
@@ -118,11 +121,20 @@ impl<F: Fn(usize) -> bool> Finder<'_, F> {
             };
             let inward = |cells: isize| step(-cells * columns, -cells * rows);
             let behind = (self.thickness / 2.0_f64.sqrt()).ceil() as isize + 1;
+            // The line turns inward as it goes on, by no more than a cell.
+            let goes_on = |sign: isize| {
+                (1..=run).all(|cells| {
+                    let (along, across) = (sign * cells * columns, -sign * cells * rows);
+                    step(along, across) || step(along - columns, across) || step(along, across - rows)
+                })
+            };
             !step(columns, rows)
                 && !step(columns, 0)
                 && !step(0, rows)
                 && (step(columns, -rows) || step(-columns, rows))
+                && (goes_on(1) || goes_on(-1))
                 && (1..=behind).any(|cells| !inward(cells))
+                && (behind..behind + run).all(|cells| !inward(cells))
                 && !step(2 * columns, 2 * rows)
         };
         let diagonals = [(1, 1), (-1, 1), (-1, -1), (1, -1)];
