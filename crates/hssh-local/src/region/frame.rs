@@ -93,7 +93,7 @@ impl<F: Fn(usize) -> bool> Page<'_, F> {
             columns: columns.start + thickest..columns.end - thickest,
             rows: rows.start + thickest..rows.end - thickest,
         };
-        self.is_framed(&inner).then_some((frame, inner))
+        self.is_framed(&around).then_some((frame, inner))
     }
 
     /// The least area that has all obstacles of one, without the outermost cells of the map.
@@ -109,14 +109,14 @@ impl<F: Fn(usize) -> bool> Page<'_, F> {
         Some(Area { columns: left..right + 1, rows: low..high + 1 })
     }
 
-    /// Whether there is a drawing within an area that is no part of what is around it.
+    /// Whether there is a drawing in an area that does not hang together with what is around it.
     fn is_framed(&self, area: &Area) -> bool {
         let is_within = |cell: Cell| area.columns.contains(&cell.column) && area.rows.contains(&cell.row);
         let is_obstacle = |index: usize| (self.is_obstacle)(index) && is_within(self.lattice.cell(index));
-        let is_large = |thing: &Thing| {
-            let is_part = |(own, all): (u32, u32)| f64::from(own) >= FRAMED * f64::from(all);
+        let is_drawing = |thing: &Thing| {
+            let is_part = |(own, all): (u32, u32)| f64::from(own) >= FRAMED * f64::from(all) && own < all;
             thing.size().into_iter().zip(area.size()).all(is_part)
         };
-        things(self.lattice, is_obstacle, 1).iter().any(is_large)
+        things(self.lattice, is_obstacle, 1).iter().any(is_drawing)
     }
 }

@@ -162,7 +162,8 @@ fn with_one_outside(
         let Some((_, region)) = opens else { break };
         regions[region as usize].kind = RegionKind::Outside;
     }
-    for &((a, b), _) in gaps.iter() {
+    // A door may lead from one yard to another.
+    for &((a, b), _) in gaps.iter().filter(|(_, gap)| is_open(gap)) {
         if [a, b].iter().all(|&region| regions[region as usize].kind == RegionKind::Outside) {
             let [a, b] = [a, b].map(|region| outside.representative(region));
             outside.join(a.max(b), a.min(b));
