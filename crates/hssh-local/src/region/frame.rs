@@ -29,6 +29,9 @@ pub(super) fn frames(lattice: &Lattice, is_obstacle: impl Fn(usize) -> bool, wit
     frames
 }
 
+/// The cell so far along a side of a rectangle, and so far within.
+type Side<'a> = &'a dyn Fn(u32, u32) -> Cell;
+
 /// A rectangle of cells.
 #[derive(Clone)]
 struct Area {
@@ -61,14 +64,12 @@ impl<F: Fn(usize) -> bool> Page<'_, F> {
             return None;
         }
         let Area { columns, rows } = around.clone();
-        // Each side as a function from how far along and how far within to a cell.
         let bottom = |along: u32, far: u32| Cell { column: columns.start + along, row: rows.start + far };
         let top = |along: u32, far: u32| Cell { column: columns.start + along, row: rows.end - 1 - far };
         let left = |along: u32, far: u32| Cell { column: columns.start + far, row: rows.start + along };
         let right = |along: u32, far: u32| Cell { column: columns.end - 1 - far, row: rows.start + along };
         let [wide, high] = around.size();
-        let sides: [(&dyn Fn(u32, u32) -> Cell, u32); 4] =
-            [(&bottom, wide), (&top, wide), (&left, high), (&right, high)];
+        let sides: [(Side<'_>, u32); 4] = [(&bottom, wide), (&top, wide), (&left, high), (&right, high)];
         let mut frame = Vec::new();
         let mut thickest = 0;
         for (side, length) in sides {
