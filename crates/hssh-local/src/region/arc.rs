@@ -22,6 +22,8 @@ const STEP: f64 = 1.0;
 const OFF: [f64; 3] = [0.0, 1.0, -1.0];
 /// ... and so many in a row may be missing.
 const MISSING: u32 = 2;
+/// Of an arc at least this part is drawn.
+const DRAWN: f64 = 0.6;
 /// So many of the circles that most is drawn of are fitted, ...
 const TRIED: usize = 4;
 /// ... each so many times.
@@ -30,6 +32,8 @@ const FITS: usize = 3;
 const ENDS: f64 = 0.12;
 /// An arc is no longer than this, in radians, to either side of where it was found.
 const LONGEST: f64 = 0.6 * PI;
+/// So far aside, in radians, an arc goes on, to one side or to the other.
+const ASIDE: f64 = 0.14 * PI;
 /// An arc is at least this long, in radians.
 const SHORTEST: f64 = 0.28 * PI;
 
@@ -151,11 +155,20 @@ impl<F: Fn(usize) -> bool> Finder<'_, F> {
         let radii = ((self.radii.end() - self.radii.start()) / RADII).ceil() as u32;
         let circles = (-TURNS..=TURNS).flat_map(|turn| {
             let angle = outward + f64::from(turn) * TURN;
-            (0..=radii).map(move |step| (angle, self.radii.start() + f64::from(step) * RADII))
+            let [ahead, left, right] = [0.0, ASIDE, -ASIDE].map(|off| toward(angle + off));
+            (0..=radii).filter_map(move |step| {
+                let radius = self.radii.start() + f64::from(step) * RADII;
+                let center = plus(at, ahead, -radius);
+                let is_crossed = |ahead: Vector| {
+                    OFF.into_iter().any(|off| self.raster.is_at(plus(center, ahead, radius + off)))
+                };
+                (is_crossed(left) || is_crossed(right)).then_some((center, radius, angle))
+            })
         });
-        let arcs = circles.map(|(angle, radius)| self.along(plus(at, toward(angle), -radius), radius, angle));
+        let arcs = circles.map(|(center, radius, angle)| self.along(center, radius, angle));
         let is_long = |arc: &Arc| arc.length() >= SHORTEST;
-        let mut arcs: Vec<Arc> = arcs.filter(is_long).collect();
+        let is_drawn = |arc: &Arc| arc.drawn >= DRAWN * arc.length() * arc.radius / STEP;
+        let mut arcs: Vec<Arc> = arcs.filter(is_long).filter(is_drawn).collect();
         arcs.sort_by(|one, other| other.drawn.total_cmp(&one.drawn));
         let fitted = arcs.iter().take(TRIED).filter_map(|arc| self.fitted(arc));
         let fitted = fitted.filter(|arc| is_long(arc) && self.radii.contains(&arc.radius));

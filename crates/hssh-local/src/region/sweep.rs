@@ -25,6 +25,8 @@ const EMPTY: f64 = 0.85;
 const ROUND: f64 = 0.25 * PI;
 /// Lines of fewer cells than this, in radius, are no arcs.
 const FEWEST: f64 = 6.0;
+/// Before the best place for a sweep is sought, so much of both is drawn.
+const ROUGHLY: f64 = 0.3;
 /// The middle of its line is no farther off the circle than so many cells.
 const OFF: f64 = 0.8;
 /// In the middle it is no nearer to the hinge than at its ends by more than this part of the radius; a straight line is by 0.14 of it.
@@ -194,11 +196,19 @@ impl<'a, F: Fn(usize) -> bool> Drawing<'a, F> {
         let lengths = self.options.shortest..=self.options.longest;
         let is_leaf = lengths.contains(&(arc.radius * self.raster.lattice.resolution()));
         let of_leaf = |(open, sign): (f64, f64)| self.closing(arc, open, sign);
-        is_leaf
+        (is_leaf && self.is_free_in_the_middle(arc))
             .then(|| self.leaves(arc))?
             .into_iter()
             .filter_map(of_leaf)
             .max_by_key(|sweep| sweep.is_to_wall)
+    }
+
+    /// Whether nothing is drawn between the middle of an arc and its center.
+    fn is_free_in_the_middle(&self, arc: &Arc) -> bool {
+        let middle = toward((arc.from + arc.to) / 2.0);
+        [0.3, 0.4, 0.5, 0.6, 0.7]
+            .into_iter()
+            .all(|far| !self.raster.is_at(plus(arc.center, middle, far * arc.radius)))
     }
 
     /// The directions of what may be a leaf at the ends of an arc, each with the sign of the turn that closes it.
@@ -280,7 +290,8 @@ impl<'a, F: Fn(usize) -> bool> Drawing<'a, F> {
     /// The sweep of a leaf that stands open in a direction, and closes by a turn with a sign.
     fn closing(&self, arc: &Arc, open: f64, sign: f64) -> Option<Sweep> {
         let found = Sweep { arc: *arc, open, closed: open + sign * FRAC_PI_2, is_to_wall: false };
-        let sweep = self.settled(found);
+        let is_roughly_drawn = self.drawn_parts(&found).into_iter().all(|part| part >= ROUGHLY);
+        let sweep = is_roughly_drawn.then(|| self.settled(found))?;
         let is_door = self.is_drawn(&sweep)
             && self.hangs(&sweep)
             && self.leads_through(&sweep)
@@ -289,12 +300,14 @@ impl<'a, F: Fn(usize) -> bool> Drawing<'a, F> {
         is_door.then(|| Sweep { is_to_wall: self.ends_at_wall(&sweep), ..sweep })
     }
 
+    /// Of the leaf and of its arc, the mean of their strokes.
+    fn drawn_parts(&self, sweep: &Sweep) -> [f64; 2] {
+        self.strokes(sweep).map(|strokes| strokes.iter().sum::<f64>() / strokes.len() as f64)
+    }
+
     /// Whether the leaf and its arc are drawn.
     fn is_drawn(&self, sweep: &Sweep) -> bool {
-        let [leaf, arc] = self.strokes(sweep).map(|strokes| {
-            let count = strokes.len() as f64;
-            strokes.into_iter().sum::<f64>() / count
-        });
+        let [leaf, arc] = self.drawn_parts(sweep);
         leaf >= DRAWN && arc >= SWEPT && self.is_round(sweep)
     }
 
