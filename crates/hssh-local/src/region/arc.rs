@@ -11,6 +11,9 @@ use crate::grid::{Cell, Lattice};
 
 /// So far a line runs along a diagonal, in metres, to at least one side of where a circle is tried.
 const RUN: f64 = 0.25;
+/// Within it is nothing for so many metres, and without for so many.
+const INNER: f64 = 0.4;
+const OUTER: f64 = 0.2;
 /// From one direction to the center to the next that is tried, in radians, and how many to either side of the diagonal.
 const TURN: f64 = PI / 30.0;
 const TURNS: i32 = 2;
@@ -32,8 +35,15 @@ const FITS: usize = 3;
 const ENDS: f64 = 0.12;
 /// An arc is no longer than this, in radians, to either side of where it was found.
 const LONGEST: f64 = 0.6 * PI;
-/// So far aside, in radians, an arc goes on, to one side or to the other.
-const ASIDE: f64 = 0.14 * PI;
+/// So many points of a circle are looked at first, the one in the middle being where it is tried, ...
+const PROBES: usize = 11;
+/// ... so many radians from one another; ...
+const PROBE: f64 = 0.05 * PI;
+/// ... of those to both sides, ...
+const LATER: [usize; 5] = [6, 7, 8, 9, 10];
+const EARLIER: [usize; 5] = [4, 3, 2, 1, 0];
+/// ... so many in a row are drawn.
+const PROMISING: usize = 4;
 /// An arc is at least this long, in radians.
 const SHORTEST: f64 = 0.28 * PI;
 
@@ -95,10 +105,20 @@ pub(super) fn arcs<F: Fn(usize) -> bool>(
     thickness: f64,
 ) -> Vec<Arc> {
     let finder = Finder { raster, radii, thickness };
+    let circles = [1, 3, 5, 7].map(|eighth| finder.circles(f64::from(eighth) * FRAC_PI_4));
     let mut arcs: Vec<Arc> =
-        finder.seeds().filter_map(|(cell, outward)| finder.arc_through(point(cell), outward)).collect();
+        finder.seeds().filter_map(|(cell, side)| finder.arc_through(cell, &circles[side])).collect();
     arcs.sort_by(|one, other| other.drawn.total_cmp(&one.drawn));
     arcs
+}
+
+/// A circle that is tried at a cell: its center as seen from there, where the cell lies on it, and the steps by index to points of it,
+/// and to those that are off by a cell.
+struct Circle {
+    center: Vector,
+    radius: f64,
+    angle: f64,
+    probes: [[isize; OFF.len()]; PROBES],
 }
 
 struct Finder<'a, F> {
@@ -108,12 +128,13 @@ struct Finder<'a, F> {
 }
 
 impl<F: Fn(usize) -> bool> Finder<'_, F> {
-    /// The cells at the outer side of thin lines that run along a diagonal, each with the angle that it is the outer side at.
-    fn seeds(&self) -> impl Iterator<Item = (Cell, f64)> {
+    /// The cells at the outer side of thin lines that run along a diagonal, each with the number of the diagonal that it is the outer side at.
+    fn seeds(&self) -> impl Iterator<Item = (Cell, usize)> {
         let lattice: Lattice = self.raster.lattice;
         let (width, height) = (lattice.width() as usize, lattice.height() as usize);
-        let run = (self.raster.cells(RUN) / 2.0_f64.sqrt()).round().max(2.0) as isize;
-        let frame = (self.thickness + 2.0).ceil() as usize + run as usize + 2;
+        let [run, within, without] = [RUN, INNER, OUTER]
+            .map(|metres| (self.raster.cells(metres) / 2.0_f64.sqrt()).round().max(2.0) as isize);
+        let frame = self.thickness.ceil() as usize + 3 + within as usize;
         let rows = frame..height.saturating_sub(frame);
         let inner =
             rows.flat_map(move |row| row * width + frame..(row * width + width.saturating_sub(frame)));
@@ -138,34 +159,62 @@ impl<F: Fn(usize) -> bool> Finder<'_, F> {
                 && (step(columns, -rows) || step(-columns, rows))
                 && (goes_on(1) || goes_on(-1))
                 && (1..=behind).any(|cells| !inward(cells))
-                && (behind..behind + run).all(|cells| !inward(cells))
-                && !step(2 * columns, 2 * rows)
+                && (behind..=within).all(|cells| !inward(cells))
+                && (2..=without).all(|cells| !inward(-cells))
         };
         let diagonals = [(1, 1), (-1, 1), (-1, -1), (1, -1)];
         obstacles.flat_map(move |index| {
-            let sides = (0_i32..)
-                .zip(diagonals)
-                .filter(move |&(_, (columns, rows))| is_outer_side(index, columns, rows));
-            sides.map(move |(turns, _)| (lattice.cell(index), FRAC_PI_4 * f64::from(2 * turns + 1)))
+            let sides =
+                (0..).zip(diagonals).filter(move |&(_, (columns, rows))| is_outer_side(index, columns, rows));
+            sides.map(move |(side, _)| (lattice.cell(index), side))
         })
     }
 
-    /// The longest arc through a point of which the center lies about opposite to a direction.
-    fn arc_through(&self, at: Vector, outward: f64) -> Option<Arc> {
+    /// The circles that are tried at a cell of which the center lies about opposite to a direction.
+    fn circles(&self, outward: f64) -> Vec<Circle> {
+        let width = self.raster.lattice.width() as isize;
         let radii = ((self.radii.end() - self.radii.start()) / RADII).ceil() as u32;
-        let circles = (-TURNS..=TURNS).flat_map(|turn| {
+        let turns = (-TURNS..=TURNS).flat_map(|turn| (0..=radii).map(move |step| (turn, step)));
+        let circle = |(turn, step): (i32, u32)| {
             let angle = outward + f64::from(turn) * TURN;
-            let [ahead, left, right] = [0.0, ASIDE, -ASIDE].map(|off| toward(angle + off));
-            (0..=radii).filter_map(move |step| {
-                let radius = self.radii.start() + f64::from(step) * RADII;
-                let center = plus(at, ahead, -radius);
-                let is_crossed = |ahead: Vector| {
-                    OFF.into_iter().any(|off| self.raster.is_at(plus(center, ahead, radius + off)))
-                };
-                (is_crossed(left) || is_crossed(right)).then_some((center, radius, angle))
-            })
-        });
-        let arcs = circles.map(|(center, radius, angle)| self.along(center, radius, angle));
+            let radius = self.radii.start() + f64::from(step) * RADII;
+            let center = toward(angle).map(|axis| -radius * axis);
+            let probe = |number: usize| {
+                let ahead = toward(angle + (number as f64 - PROBES as f64 / 2.0 + 0.5) * PROBE);
+                OFF.map(|off| {
+                    let [columns, rows] = plus(center, ahead, radius + off).map(|axis| axis.round() as isize);
+                    rows * width + columns
+                })
+            };
+            Circle { center, radius, angle, probes: std::array::from_fn(probe) }
+        };
+        turns.map(circle).collect()
+    }
+
+    /// Whether so much of a circle at a cell may be drawn that it is worth a closer look.
+    fn is_promising(&self, circle: &Circle, cell: Cell) -> bool {
+        let reach = 2 * (*self.radii.end() as u32 + 2);
+        let is_inner = |at: u32, cells: u32| at >= reach && at + reach < cells;
+        if !is_inner(cell.column, self.raster.lattice.width())
+            || !is_inner(cell.row, self.raster.lattice.height())
+        {
+            return true;
+        }
+        let index = self.raster.lattice.index(cell);
+        let is_on = |&&number: &&usize| {
+            circle.probes[number]
+                .iter()
+                .any(|&step| (self.raster.is_obstacle)(index.wrapping_add_signed(step)))
+        };
+        let run = |numbers: &[usize]| numbers.iter().take_while(is_on).count();
+        run(&LATER) + run(&EARLIER) >= PROMISING
+    }
+
+    /// The longest arc through a cell along one of some circles.
+    fn arc_through(&self, cell: Cell, circles: &[Circle]) -> Option<Arc> {
+        let promising = circles.iter().filter(|circle| self.is_promising(circle, cell));
+        let arcs = promising
+            .map(|circle| self.along(plus(point(cell), circle.center, 1.0), circle.radius, circle.angle));
         let is_long = |arc: &Arc| arc.length() >= SHORTEST;
         let is_drawn = |arc: &Arc| arc.drawn >= DRAWN * arc.length() * arc.radius / STEP;
         let mut arcs: Vec<Arc> = arcs.filter(is_long).filter(is_drawn).collect();

@@ -18,7 +18,8 @@ impl<F: Fn(usize) -> bool> Raster<F> {
 
     /// The cell at a point, if it is on the lattice.
     pub(super) fn cell_at(&self, [column, row]: Vector) -> Option<Cell> {
-        let (column, row) = (column.round(), row.round());
+        // The whole number nearest to what is not negative; rounding calls the library.
+        let (column, row) = (column + 0.5, row + 0.5);
         let is_on = (0.0..f64::from(self.lattice.width())).contains(&column)
             && (0.0..f64::from(self.lattice.height())).contains(&row);
         is_on.then_some(Cell { column: column as u32, row: row as u32 })
