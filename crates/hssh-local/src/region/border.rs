@@ -178,7 +178,7 @@ fn connected(cells: &[u32], field: &DistanceField) -> Vec<Vec<u32>> {
 }
 
 /// How many cells along rows and columns pairs of pieces share walls, up to a thickness in metres.
-fn walls(labels: &[u32], ground: &Ground, thickest: f64) -> BTreeMap<Pair, u32> {
+pub(super) fn walls(labels: &[u32], ground: &Ground, thickest: f64) -> BTreeMap<Pair, u32> {
     let lattice = ground.field().lattice();
     let (width, height) = (lattice.width() as usize, lattice.height() as usize);
     let most = (thickest / lattice.resolution()).round() as usize;

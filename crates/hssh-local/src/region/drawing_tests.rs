@@ -2,7 +2,7 @@
 
 use std::f64::consts::PI;
 
-use super::{Passage, RegionKind, RegionMap, RegionOptions};
+use super::{Passage, Region, RegionKind, RegionMap, RegionOptions};
 use crate::grid::{Lattice, Occupancy, OccupancyGrid};
 
 /// A rectangle: left, bottom, right and top in metres.
@@ -41,6 +41,24 @@ impl Plan {
         self
     }
 
+    /// Draws the arc of each leaf, a right angle from its tip to where the leaf lies when it is closed.
+    fn with_arcs(mut self) -> Self {
+        let arcs: Vec<[[f64; 2]; 2]> = self
+            .leaves
+            .iter()
+            .flat_map(|&[[hx, hy], [_, ty]]| {
+                let (radius, ahead) = (ty - hy, if hx < 2.6 { 1.0 } else { -1.0 });
+                let at = move |step: u32| {
+                    let (sin, cos) = (f64::from(step) * PI / 64.0).sin_cos();
+                    [hx + ahead * radius.abs() * cos, hy + radius * sin]
+                };
+                (0..32).map(move |step| [at(step), at(step + 1)])
+            })
+            .collect();
+        self.leaves.extend(arcs);
+        self
+    }
+
     fn at(&self, [x, y]: [f64; 2]) -> Occupancy {
         let is_in =
             |&[left, bottom, right, top]: &Area| (left..right).contains(&x) && (bottom..top).contains(&y);
@@ -61,14 +79,19 @@ impl Plan {
     /// The plan in cells of that many metres, turned by so many degrees around the origin. What covers any of nine points of a
     /// cell is in it, so that no thin line is lost.
     fn drawn(&self, cell: f64, degrees: f64) -> OccupancyGrid {
+        self.drawn_with_margin(cell, degrees, 0.2)
+    }
+
+    /// The same, with so many metres of what is beyond around it.
+    fn drawn_with_margin(&self, cell: f64, degrees: f64, margin: f64) -> OccupancyGrid {
         let (sin, cos) = degrees.to_radians().sin_cos();
         let corners = [[0.0, 0.0], [SIZE[0], 0.0], [0.0, SIZE[1]], SIZE];
         let corners = corners.map(|[x, y]| [cos * x - sin * y, sin * x + cos * y]);
         let bound = |axis: usize, better: fn(f64, f64) -> f64| {
             corners.iter().map(|corner| corner[axis]).reduce(better).unwrap_or_default()
         };
-        let low = [0, 1].map(|axis| bound(axis, f64::min) - 0.2);
-        let cells = [0, 1].map(|axis| ((bound(axis, f64::max) + 0.2 - low[axis]) / cell).ceil() as u32);
+        let low = [0, 1].map(|axis| bound(axis, f64::min) - margin);
+        let cells = [0, 1].map(|axis| ((bound(axis, f64::max) + margin - low[axis]) / cell).ceil() as u32);
         let lattice = Lattice::new(cells[0], cells[1], cell, low).unwrap();
         let occupancy = |here| {
             let [x, y] = lattice.center(here);
@@ -230,4 +253,73 @@ fn a_piece_between_two_walls_is_wall() {
     }
     let map = regions(&grid);
     assert_eq!((map.regions.len(), map.passages.len()), (2, 1), "{:?}", map.passages);
+}
+
+/// Doors as plans draw them: a leaf at a right angle, and the arc from its tip to the other jamb. They are doors as wide as the
+/// leaf, whichever way it opens, and the same regions are there as without.
+#[test]
+fn a_leaf_with_its_arc_is_a_door() {
+    for (cell, turn) in [(0.025, 0.0), (0.05, 0.0), (0.05, 7.0), (0.025, 30.0)] {
+        for width in [0.7, 0.9, 1.1] {
+            for is_into_room in [true, false] {
+                let plan = Plan::with_opening(width).with_leaves(width, 1, 90.0, is_into_room).with_arcs();
+                is_a_door_of_three_regions(&plan, cell, turn, width);
+            }
+        }
+    }
+}
+
+#[test]
+fn two_leaves_with_their_arcs_are_one_door() {
+    for (cell, turn) in [(0.025, 0.0), (0.05, 0.0), (0.025, 30.0)] {
+        for is_into_room in [true, false] {
+            let plan = Plan::with_opening(1.8).with_leaves(1.8, 2, 90.0, is_into_room).with_arcs();
+            is_a_door_of_three_regions(&plan, cell, turn, 1.8);
+        }
+    }
+}
+
+/// Without a leaf an arc is a round wall, and what it closes in is no door.
+#[test]
+fn an_arc_without_a_leaf_is_a_wall() {
+    let mut plan = Plan::with_opening(0.9).with_leaves(0.9, 1, 90.0, true).with_arcs();
+    plan.leaves.retain(|&[[ax, _], [bx, _]]| (ax - bx).abs() > 1e-9);
+    let map = regions(&plan.drawn(0.05, 0.0));
+    assert!(passage(&map, 0.9, 0.0).is_none_or(|passage| !passage.is_door()), "{:?}", map.passages);
+}
+
+/// A plan on a page: a frame around it with a box of the legend in a corner. The paper is outside, and the box is no room.
+#[test]
+fn a_page_is_no_building() {
+    for cell in [0.05, 0.1] {
+        let front = [0.0, 1.0, 0.2, 1.9];
+        let mut plan = Plan { beyond: Occupancy::Free, ..Plan::with_opening(0.9) };
+        plan.free.push(front);
+        let page = |[left, bottom, right, top]: Area| {
+            let corners = [[left, bottom], [right, bottom], [right, top], [left, top]];
+            (0..4).map(move |at| [corners[at], corners[(at + 1) % 4]])
+        };
+        plan.leaves.extend(page([-3.0, -5.0, 16.0, 11.0]).chain(page([11.0, -5.0, 16.0, -3.0])));
+        let map = regions(&plan.drawn_with_margin(cell, 0.0, 6.5));
+        let outside = |region: &&Region| region.kind == RegionKind::Outside;
+        let kinds: Vec<RegionKind> = map.regions.iter().map(|region| region.kind).collect();
+        assert_eq!((map.regions.len(), map.regions.iter().filter(outside).count()), (4, 1), "{kinds:?}");
+        assert_eq!(map.passages.iter().filter(|passage| passage.is_door()).count(), 3, "{:?}", map.passages);
+    }
+}
+
+/// A word across most of a room parts it no more than paper does.
+#[test]
+fn a_word_parts_no_room() {
+    for turn in [0.0, 30.0] {
+        let mut plan = Plan { beyond: Occupancy::Occupied, ..Plan::with_opening(0.9) };
+        for letter in 0..12 {
+            let x = 1.4 + 0.35 * f64::from(letter);
+            plan.leaves.push([[x, 5.0], [x, 5.4]]);
+            plan.leaves.push([[x, 5.4], [x + 0.2, 5.4]]);
+            plan.leaves.push([[x, 5.2], [x + 0.15, 5.2]]);
+        }
+        let map = regions(&plan.drawn(0.05, turn));
+        assert_eq!((map.regions.len(), map.passages.len()), (3, 2), "{turn}°: {:?}", map.passages);
+    }
 }

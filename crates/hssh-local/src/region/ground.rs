@@ -6,6 +6,7 @@ use super::bits::Bits;
 use super::kind::End;
 use super::leaf::{self, Leaf};
 use super::options::RegionOptions;
+use super::sign::{self, DoorSigns};
 use crate::distance::DistanceField;
 use crate::grid::{Cell, Lattice, Occupancy, OccupancyGrid};
 use crate::skeleton::{SkeletonOptions, UnknownSpace, clear_field};
@@ -23,22 +24,28 @@ pub(super) struct Ground {
     /// The outermost cells, by their indices, that are wall only because the map ends there.
     open_edge: FxHashSet<usize>,
     leaves: Vec<Leaf>,
+    /// The cells of what is drawn of doors, by their indices.
+    signs: FxHashSet<usize>,
 }
 
 impl Ground {
     pub(super) fn new(drawn: &OccupancyGrid, options: &RegionOptions) -> Self {
         let mut grid = settled(drawn, options);
+        // No robot sees an arc, a word or the frame of a page.
+        let is_plan = options.unknown != UnknownSpace::Unexplored;
+        if is_plan {
+            sign::free_frames(&mut grid, options);
+        }
         let is_open = |&index: &usize| {
             drawn.cells()[index] == Occupancy::Free && grid.cells()[index] != Occupancy::Free
         };
         let open_edge =
             edge(drawn.lattice()).map(|cell| drawn.lattice().index(cell)).filter(is_open).collect();
-        let is_obstacle = |index: usize| match grid.cells()[index] {
-            Occupancy::Free => false,
-            Occupancy::Occupied => true,
-            Occupancy::Unknown => options.unknown != UnknownSpace::Free,
-        };
-        let (leaves, covered) = leaf::leaves(grid.lattice(), is_obstacle, &options.leaf);
+        let DoorSigns { mut leaves, cells: signs } =
+            if is_plan { sign::free_signs(&mut grid, drawn, options) } else { DoorSigns::default() };
+        let is_obstacle = |index: usize| sign::is_obstacle(&grid, index, options);
+        let (ajar, covered) = leaf::leaves(grid.lattice(), is_obstacle, &options.leaf);
+        leaves.extend(ajar);
         covered.into_iter().for_each(|cell| grid.set(cell, Occupancy::Free));
         let clearing = SkeletonOptions {
             unknown: options.unknown,
@@ -48,7 +55,7 @@ impl Ground {
             ..SkeletonOptions::default()
         };
         let field = clear_field(&grid, &clearing);
-        Ground { grid, field, unknown: options.unknown, open_edge, leaves }
+        Ground { grid, field, unknown: options.unknown, open_edge, leaves, signs }
     }
 
     /// How far each cell is from what no robot can go through.
@@ -59,6 +66,11 @@ impl Ground {
     /// The leaves of doors that stand open.
     pub(super) fn leaves(&self) -> &[Leaf] {
         &self.leaves
+    }
+
+    /// The cells of what is drawn of doors, by their indices: leaves with the arcs that they sweep.
+    pub(super) fn into_signs(self) -> FxHashSet<usize> {
+        self.signs
     }
 
     /// Whether no robot can be in the cell with an index.

@@ -90,4 +90,12 @@ impl Region {
         };
         Region { kind, area, width, explored }
     }
+
+    /// Takes in another region of its kind.
+    pub(super) fn add(&mut self, other: &Region) {
+        let area = self.area + other.area;
+        let mean = |own: f64, others: f64| (own * self.area + others * other.area) / area;
+        (self.width, self.explored) = (mean(self.width, other.width), mean(self.explored, other.explored));
+        self.area = area;
+    }
 }

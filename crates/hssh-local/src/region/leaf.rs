@@ -6,6 +6,7 @@ use std::f64::consts::TAU;
 use rustc_hash::FxHashSet;
 
 use super::options::LeafOptions;
+use super::raster::{Raster, Vector, length, minus, plus, point, unit};
 use crate::grid::{Cell, Lattice};
 
 /// So many directions from a hinge are tried for an opening.
@@ -41,9 +42,6 @@ const ALIKE: f64 = 0.6;
 /// The cosines of the angles between a leaf that stands open and the opening: 14° to 120°.
 const OPEN: std::ops::RangeInclusive<f64> = -0.5..=0.97;
 
-/// A point or a vector in cells; the middle of a cell is a whole number.
-type Vector = [f64; 2];
-
 /// A leaf that stands open; in metres.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub(super) struct Leaf {
@@ -65,14 +63,13 @@ pub(super) fn leaves(
     is_obstacle: impl Fn(usize) -> bool,
     options: &LeafOptions,
 ) -> (Vec<Leaf>, Vec<Cell>) {
-    let field = Field { lattice: *lattice, is_obstacle, options };
+    let field = Field { raster: Raster { lattice: *lattice, is_obstacle }, options };
     let bars = field.bars();
     let (mut leaves, mut cells) = (Vec::new(), Vec::new());
     for (number, bar) in bars.iter().enumerate() {
         let pairs = || bars.iter().enumerate().filter(|&(other, _)| other != number);
         if field.closes(bar) || pairs().any(|(_, other)| field.close_together(bar, other)) {
-            let metres = |[column, row]: Vector| lattice.point([column + 0.5, row + 0.5]);
-            leaves.push(Leaf { hinge: metres(bar.hinge), tip: metres(bar.tip) });
+            leaves.push(Leaf { hinge: field.raster.metres(bar.hinge), tip: field.raster.metres(bar.tip) });
             cells.extend(field.cells_of(bar));
         }
     }
@@ -99,14 +96,13 @@ impl Bar {
 
 /// What is asked for leaves; lengths in cells, unless they are constants.
 struct Field<'a, F> {
-    lattice: Lattice,
-    is_obstacle: F,
+    raster: Raster<F>,
     options: &'a LeafOptions,
 }
 
 impl<F: Fn(usize) -> bool> Field<'_, F> {
     fn cells(&self, metres: f64) -> f64 {
-        metres / self.lattice.resolution()
+        self.raster.cells(metres)
     }
 
     /// How far the beginning of a bar is looked at.
@@ -123,12 +119,8 @@ impl<F: Fn(usize) -> bool> Field<'_, F> {
         self.options.fits * closing + 1.5
     }
 
-    /// Whether there is an obstacle at a point. There is beyond the map.
-    fn is_at(&self, [column, row]: Vector) -> bool {
-        let (column, row) = (column.round(), row.round());
-        let is_on = (0.0..f64::from(self.lattice.width())).contains(&column)
-            && (0.0..f64::from(self.lattice.height())).contains(&row);
-        !is_on || (self.is_obstacle)(self.lattice.index(Cell { column: column as u32, row: row as u32 }))
+    fn is_at(&self, point: Vector) -> bool {
+        self.raster.is_at(point)
     }
 
     /// All bars that are as long as leaves.
@@ -155,7 +147,7 @@ impl<F: Fn(usize) -> bool> Field<'_, F> {
 
     /// The cells of obstacles at the ends of rows of them of which what lies around is free but for a bar.
     fn tips(&self) -> impl Iterator<Item = Cell> {
-        let (width, height) = (self.lattice.width() as usize, self.lattice.height() as usize);
+        let (width, height) = (self.raster.lattice.width() as usize, self.raster.lattice.height() as usize);
         let rings = [self.thickness() + 1.5, self.reach() - 1.0].map(|radius| self.ring(radius));
         let frame = (self.reach() + self.thickness()).ceil() as usize;
         let rows = frame..height.saturating_sub(frame);
@@ -163,7 +155,7 @@ impl<F: Fn(usize) -> bool> Field<'_, F> {
             rows.flat_map(move |row| row * width + frame..(row * width + width.saturating_sub(frame)));
         let beside = AROUND_A_CELL.map(|(columns, rows)| rows as isize * width as isize + columns as isize);
         let is_tip = move |&index: &usize| {
-            let is_obstacle = |index: usize| (self.is_obstacle)(index);
+            let is_obstacle = |index: usize| (self.raster.is_obstacle)(index);
             let is_convex = || {
                 let around = beside.map(|step| is_obstacle(index.wrapping_add_signed(step)));
                 (0..8).any(|first| (first..first + CONVEX).all(|at| !around[at % 8]))
@@ -174,7 +166,7 @@ impl<F: Fn(usize) -> bool> Field<'_, F> {
             };
             is_row_end && is_convex() && rings.iter().all(|ring| count(ring) <= BAR)
         };
-        inner.filter(is_tip).map(|index| self.lattice.cell(index))
+        inner.filter(is_tip).map(|index| self.raster.lattice.cell(index))
     }
 
     /// The steps, by index, to a ring around a cell.
@@ -182,7 +174,7 @@ impl<F: Fn(usize) -> bool> Field<'_, F> {
         std::array::from_fn(|step| {
             let (sin, cos) = (step as f64 / RING as f64 * TAU).sin_cos();
             let [columns, rows] = [cos, sin].map(|axis| (radius * axis).round() as isize);
-            rows * self.lattice.width() as isize + columns
+            rows * self.raster.lattice.width() as isize + columns
         })
     }
 
@@ -228,8 +220,8 @@ impl<F: Fn(usize) -> bool> Field<'_, F> {
         let reach = self.reach();
         let most = ((reach + 2.0) * (self.thickness() + 1.0)) as usize;
         let start = point(tip);
-        let (reached, width) = ((reach * reach) as i32, self.lattice.width() as i32);
-        let origin = self.lattice.index(tip);
+        let (reached, width) = ((reach * reach) as i32, self.raster.lattice.width() as i32);
+        let origin = self.raster.lattice.index(tip);
         // By steps from the tip, which is so far within the map that they lead to cells of it.
         let mut steps = vec![(0, 0)];
         let mut seen = [0_u64; 2 * FARTHEST];
@@ -246,7 +238,9 @@ impl<F: Fn(usize) -> bool> Field<'_, F> {
             for (columns, rows) in AROUND_A_CELL {
                 let (columns, rows) = (column + columns, row + rows);
                 let is_new = columns * columns + rows * rows <= reached
-                    && (self.is_obstacle)(origin.wrapping_add_signed((rows * width + columns) as isize))
+                    && (self.raster.is_obstacle)(
+                        origin.wrapping_add_signed((rows * width + columns) as isize),
+                    )
                     && is_first(columns, rows);
                 if is_new {
                     steps.push((columns, rows));
@@ -392,10 +386,7 @@ impl<F: Fn(usize) -> bool> Field<'_, F> {
         let points = steps(-1.0, bar.length() - 1.0).flat_map(|along| {
             steps(-half, half).map(move |off| plus(plus(bar.tip, ahead, along), across, off))
         });
-        let lattice = self.lattice;
-        let cell =
-            |[column, row]: Vector| lattice.cell_at(lattice.point([column.round() + 0.5, row.round() + 0.5]));
-        points.filter(|&at| self.is_at(at)).filter_map(cell).collect()
+        points.filter(|&at| self.is_at(at)).filter_map(|at| self.raster.cell_at(at)).collect()
     }
 }
 
@@ -406,25 +397,4 @@ enum Across {
     /// More than a bar.
     Wall,
     Nothing,
-}
-
-fn point(cell: Cell) -> Vector {
-    [f64::from(cell.column), f64::from(cell.row)]
-}
-
-fn plus([x, y]: Vector, [dx, dy]: Vector, times: f64) -> Vector {
-    [x + times * dx, y + times * dy]
-}
-
-fn minus([ax, ay]: Vector, [bx, by]: Vector) -> Vector {
-    [ax - bx, ay - by]
-}
-
-fn length([x, y]: Vector) -> f64 {
-    x.hypot(y)
-}
-
-fn unit(vector: Vector) -> Vector {
-    let length = length(vector).max(f64::MIN_POSITIVE);
-    vector.map(|axis| axis / length)
 }

@@ -4,25 +4,33 @@
 //! small is furniture. Then free space is [flooded](flood) into pieces that are parted by every constriction, and the
 //! pieces are [merged](merge) again where a cut is not worth it, by one measure of [all that lies between](border).
 
+mod arc;
 mod bits;
 mod border;
 mod door;
 #[cfg(test)]
 mod drawing_tests;
 mod flood;
+mod frame;
 mod ground;
+mod hollow;
 mod island;
 mod kind;
 mod leaf;
+mod lettering;
 mod merge;
 mod options;
 mod outline;
 mod passage;
 mod picture;
+mod raster;
 mod region_map;
 mod rim;
+mod sign;
+mod sweep;
 #[cfg(test)]
 mod tests;
+mod thing;
 
 pub use ground::without_rims;
 pub use kind::{Region, RegionKind, RegionNumber};

@@ -131,6 +131,10 @@ pub struct KindOptions {
     pub explored: f64,
     /// Where less than this part of the rim is wall, and the map ends at the rest, it is outside. Default: 0.5.
     pub inside: f64,
+    /// ... and so it is of less than this part, where it is open to the outside. Default: 0.9.
+    pub beside: f64,
+    /// It is open to the outside where it is no narrower than this. Default: 1.3 m.
+    pub widest_door: f64,
 }
 
 impl Default for RegionOptions {
@@ -203,6 +207,8 @@ impl Default for KindOptions {
             narrowest_closed: 1.2,
             explored: 0.6,
             inside: 0.5,
+            beside: 0.9,
+            widest_door: 1.3,
         }
     }
 }

@@ -1,12 +1,14 @@
 //! The regions of a map: all steps from a grid to them.
 
+use rustc_hash::FxHashSet;
+
 use super::border::{self, Border, Gap, Pair};
 use super::flood::{self, Joining, NO_PIECE, Pieces};
 use super::ground::Ground;
 use super::island::Islands;
 use super::kind::{Region, RegionKind, RegionNumber};
 use super::merge::{self, Extent, Merged};
-use super::options::RegionOptions;
+use super::options::{KindOptions, RegionOptions};
 use super::outline::{self, Outline};
 use super::passage::{self, Passage};
 use super::{door, rim};
@@ -22,6 +24,8 @@ pub struct RegionMap {
     labels: Vec<u32>,
     /// The passages of each region.
     passages_of: Vec<Vec<u32>>,
+    /// The cells of signs, by their indices.
+    signs: FxHashSet<usize>,
     /// The regions.
     pub regions: Vec<Region>,
     /// Where they lead to one another.
@@ -49,25 +53,33 @@ impl RegionMap {
             let passable = border.gaps.iter().filter(|gap| gap.width >= options.narrowest).copied();
             passable.map(move |gap| (pair, gap)).collect::<Vec<_>>()
         };
-        let gaps: Vec<(Pair, Gap)> = borders.iter().flat_map(gaps).collect();
+        let mut gaps: Vec<(Pair, Gap)> = borders.iter().flat_map(gaps).collect();
         let mut labels = pieces.labels;
         let explored = rim::explored(&labels, &region_of, &ground, options.narrowest);
-        let all: Vec<Region> = extents
+        let mut all: Vec<Region> = extents
             .iter()
             .zip(explored)
             .map(|(&extent, explored)| Region::new(extent, explored, ground.end(), &options.kind))
             .collect();
-        let is_kept = kept(&pieces.widest, &region_of, &gaps, &all, field, options);
+        let region_of = with_one_outside(region_of, &mut all, &mut gaps, &options.kind);
+        let mut is_kept = kept(&pieces.widest, &region_of, &gaps, &all, field, options);
+        if all.iter().any(|region| region.kind == RegionKind::Outside) {
+            relabel(&mut labels, &region_of);
+            let walls = border::walls(&labels, &ground, options.thickest_wall);
+            for (is_kept, is_apart) in is_kept.iter_mut().zip(apart(&all, &gaps, walls.into_keys())) {
+                *is_kept &= !is_apart;
+            }
+        }
         let mut numbers = vec![NO_PIECE; extents.len()];
         let mut regions = Vec::new();
         for (piece, region) in all.into_iter().enumerate().filter(|&(piece, _)| is_kept[piece]) {
             numbers[piece] = regions.len() as u32;
             regions.push(region);
         }
-        for label in labels.iter_mut().filter(|label| **label != NO_PIECE) {
-            *label = numbers[region_of[*label as usize] as usize];
-        }
-        let gaps: Vec<(Pair, Gap)> = gaps.into_iter().filter(|((a, _), _)| is_kept[*a as usize]).collect();
+        numbers = region_of.iter().map(|&region| numbers[region as usize]).collect();
+        relabel(&mut labels, &numbers);
+        let gaps: Vec<(Pair, Gap)> =
+            gaps.into_iter().filter(|((a, b), _)| is_kept[*a as usize] && is_kept[*b as usize]).collect();
         let mut passage = |&((a, b), gap): &(Pair, Gap)| {
             let pair = [a, b].map(|piece| numbers[piece as usize]);
             let gateway = passage::gateway_of(&gap, pair, &labels, field);
@@ -82,7 +94,8 @@ impl RegionMap {
         for (number, passage) in passages.iter().enumerate() {
             passage.regions.iter().for_each(|region| passages_of[region.index()].push(number as u32));
         }
-        Ok(RegionMap { lattice: *grid.lattice(), labels, passages_of, regions, passages })
+        let signs = ground.into_signs();
+        Ok(RegionMap { lattice: *grid.lattice(), labels, passages_of, signs, regions, passages })
     }
 
     /// Where the cells are.
@@ -104,6 +117,12 @@ impl RegionMap {
         self.region_of(self.lattice.cell_at(point)?)
     }
 
+    /// Whether the cell with an index is a sign of a plan, and nothing that stands there: the leaf of a door with its arc.
+    #[must_use]
+    pub fn is_sign(&self, index: usize) -> bool {
+        !self.signs.is_empty() && self.signs.contains(&index)
+    }
+
     /// The outlines of all regions, straightened where they move by no more than a cell.
     #[must_use]
     pub fn outlines(&self) -> Vec<Outline> {
@@ -119,6 +138,59 @@ impl RegionMap {
     #[must_use]
     pub fn region(&self, region: RegionNumber) -> &Region {
         &self.regions[region.index()]
+    }
+}
+
+/// The pieces that stand for regions, with those outside that lead to one another as one: nothing parts what lies around a building.
+fn with_one_outside(
+    mut region_of: Vec<u32>,
+    regions: &mut [Region],
+    gaps: &mut Vec<(Pair, Gap)>,
+    options: &KindOptions,
+) -> Vec<u32> {
+    let mut outside = DisjointSets::singletons(regions.len());
+    // Lines beside a plan part the paper; what ends with it and is wide open to the outside is outside as well.
+    let is_open = |gap: &Gap| gap.width >= options.widest_door;
+    loop {
+        let is_outside = |region: u32| regions[region as usize].kind == RegionKind::Outside;
+        let is_beside =
+            |region: u32| !is_outside(region) && regions[region as usize].explored < options.beside;
+        let opens = gaps.iter().filter(|(_, gap)| is_open(gap)).find_map(|&((a, b), _)| {
+            let pairs = [(a, b), (b, a)];
+            pairs.into_iter().find(|&(one, other)| is_outside(one) && is_beside(other))
+        });
+        let Some((_, region)) = opens else { break };
+        regions[region as usize].kind = RegionKind::Outside;
+    }
+    // A door may lead from one yard to another.
+    for &((a, b), _) in gaps.iter().filter(|(_, gap)| is_open(gap)) {
+        if [a, b].iter().all(|&region| regions[region as usize].kind == RegionKind::Outside) {
+            let [a, b] = [a, b].map(|region| outside.representative(region));
+            outside.join(a.max(b), a.min(b));
+        }
+    }
+    for region in &mut region_of {
+        *region = outside.representative(*region);
+    }
+    for region in 0..regions.len() {
+        let kept = outside.representative(region as u32) as usize;
+        if kept != region {
+            let gone = regions[region].clone();
+            regions[kept].add(&gone);
+        }
+    }
+    for ((a, b), _) in gaps.iter_mut() {
+        let [one, other] = [*a, *b].map(|region| outside.representative(region));
+        (*a, *b) = (one.min(other), one.max(other));
+    }
+    gaps.retain(|((a, b), _)| a != b);
+    region_of
+}
+
+/// Gives each piece another label.
+fn relabel(labels: &mut [u32], numbers: &[u32]) {
+    for label in labels.iter_mut().filter(|label| **label != NO_PIECE) {
+        *label = numbers[*label as usize];
     }
 }
 
@@ -165,6 +237,26 @@ fn paper(regions: &[Region], gaps: &[(Pair, Gap)]) -> Vec<bool> {
         |region: u32, building: &mut DisjointSets| has_inside[building.representative(region) as usize];
     let has_passages = gaps.iter().any(|&((a, _), _)| is_inside(a, &mut building));
     (0..regions.len() as u32).map(|region| has_passages && !is_inside(region, &mut building)).collect()
+}
+
+/// Which regions have no way out, and no wall in common with others that have one: the boxes of a legend beside a plan.
+fn apart(regions: &[Region], gaps: &[(Pair, Gap)], walls: impl Iterator<Item = Pair>) -> Vec<bool> {
+    let is_outside = |region: u32| regions[region as usize].kind == RegionKind::Outside;
+    let mut buildings = DisjointSets::singletons(regions.len());
+    let within = gaps.iter().map(|&(pair, _)| pair).chain(walls);
+    for (a, b) in within.filter(|&(a, b)| !is_outside(a) && !is_outside(b)) {
+        let [a, b] = [a, b].map(|region| buildings.representative(region));
+        buildings.join(a.max(b), a.min(b));
+    }
+    let mut has_passage = vec![false; regions.len()];
+    for region in gaps.iter().flat_map(|&((a, b), _)| [a, b]).filter(|&region| !is_outside(region)) {
+        has_passage[buildings.representative(region) as usize] = true;
+    }
+    let has_any = has_passage.contains(&true);
+    let mut is_apart = |region: u32| {
+        has_any && !is_outside(region) && !has_passage[buildings.representative(region) as usize]
+    };
+    (0..regions.len() as u32).map(&mut is_apart).collect()
 }
 
 /// How large the pieces are and how wide.

@@ -16,8 +16,8 @@ impl Roadmap {
     pub fn new(grid: &OccupancyGrid, map: &RegionMap, options: &RoadmapOptions) -> Self {
         let is_obstacle = |index: usize| match grid.cells()[index] {
             Occupancy::Free => false,
-            Occupancy::Occupied => true,
-            Occupancy::Unknown => options.unknown != UnknownSpace::Free,
+            Occupancy::Occupied => !map.is_sign(index),
+            Occupancy::Unknown => options.unknown != UnknownSpace::Free && !map.is_sign(index),
         };
         let field = DistanceField::new(*grid.lattice(), is_obstacle);
         let exits = region::exits(map, &field, options);
