@@ -43,7 +43,7 @@ impl Default for MatchOptions {
             spacing: 0.08,
             hit_noise: 0.04,
             hits_per_observation: 2.0,
-            memory: 20.0,
+            memory: 8.0,
             keyframe_distance: 0.4,
             keyframe_turn: 0.3,
             slip: Some(Slip::default()),
