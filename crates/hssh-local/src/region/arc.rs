@@ -217,15 +217,16 @@ impl<F: Fn(usize) -> bool> Finder<'_, F> {
             .map(|circle| self.along(plus(point(cell), circle.center, 1.0), circle.radius, circle.angle));
         let is_long = |arc: &Arc| arc.length() >= SHORTEST;
         let is_drawn = |arc: &Arc| arc.drawn >= DRAWN * arc.length() * arc.radius / STEP;
-        let mut arcs: Vec<Arc> = arcs.filter(is_long).filter(is_drawn).collect();
+        let counted = |arc| self.counted(arc);
+        let mut arcs: Vec<Arc> = arcs.filter(is_long).map(counted).filter(is_drawn).collect();
         arcs.sort_by(|one, other| other.drawn.total_cmp(&one.drawn));
         let fitted = arcs.iter().take(TRIED).filter_map(|arc| self.fitted(arc));
         let fitted = fitted.filter(|arc| is_long(arc) && self.radii.contains(&arc.radius));
         fitted.max_by(|one, other| one.drawn.total_cmp(&other.drawn))
     }
 
-    /// How many cells of an arc are drawn.
-    fn drawn(&self, arc: &Arc) -> f64 {
+    /// An arc with how many cells of it are drawn.
+    fn counted(&self, arc: Arc) -> Arc {
         let is_at =
             |angle: f64, off: f64| self.raster.is_at(plus(arc.center, toward(angle), arc.radius + off));
         let drawn = |angle: f64| match () {
@@ -233,10 +234,10 @@ impl<F: Fn(usize) -> bool> Finder<'_, F> {
             () if is_at(angle, 1.0) || is_at(angle, -1.0) => 0.5,
             () => -1.0,
         };
-        arc.angles(0.0).map(drawn).sum()
+        Arc { drawn: arc.angles(0.0).map(drawn).sum(), ..arc }
     }
 
-    /// What is drawn along a circle to both sides of an angle.
+    /// What is drawn along a circle to both sides of an angle; its cells are not counted yet.
     fn along(&self, center: Vector, radius: f64, angle: f64) -> Arc {
         let step = STEP / radius;
         let end = |sign: f64| {
@@ -253,8 +254,7 @@ impl<F: Fn(usize) -> bool> Finder<'_, F> {
             }
             last
         };
-        let arc = Arc { center, radius, from: end(-1.0), to: end(1.0), drawn: 0.0 };
-        Arc { drawn: self.drawn(&arc), ..arc }
+        Arc { center, radius, from: end(-1.0), to: end(1.0), drawn: 0.0 }
     }
 
     /// Whether a thin line crosses the radius at an angle, with nothing within it.
@@ -276,7 +276,7 @@ impl<F: Fn(usize) -> bool> Finder<'_, F> {
             let [x, y] = minus(best.at((best.from + best.to) / 2.0), center);
             best = self.along(center, radius, y.atan2(x));
         }
-        Some(best)
+        Some(self.counted(best))
     }
 }
 

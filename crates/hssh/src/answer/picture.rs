@@ -5,7 +5,7 @@ use hssh_draw::{
 };
 use hssh_local::RegionNumber;
 use hssh_metrics::Pose;
-use hssh_topology::{MapOlp, PlaceId, TopologicalMap};
+use hssh_topology::{PlaceId, TopologicalMap};
 use nalgebra::Matrix2;
 
 use super::building::{AnsweredBuilding, AnsweredRegion};
@@ -47,9 +47,10 @@ impl MapPicture {
             .map(|place| place.pose.map(|pose| Pose { x: pose.x, y: pose.y, theta: pose.theta }))
             .collect();
         let drawing = match placed {
-            Some(poses) => Drawing::measured(&rebuilt.map, poses, &bearings)?
-                .with_covariances(covariances(map))
-                .with_ways(ways(map, &rebuilt.map)?),
+            Some(poses) => {
+                let drawing = Drawing::measured(&rebuilt.map, poses, &bearings)?;
+                along_ways(drawing.with_covariances(covariances(map)), map, &rebuilt.map)?
+            }
             None => Drawing::schematic(&rebuilt.map, &bearings)?,
         };
         let options = MapOptions {
@@ -106,15 +107,16 @@ impl MapPicture {
     }
 }
 
-/// The ways of the links as they were driven, where that is known.
-fn ways(
+/// The drawing with links along the ways that were driven, where these are known.
+fn along_ways(
+    drawing: Drawing,
     map: &AnsweredMap,
     grown: &TopologicalMap,
-) -> Result<Vec<([MapOlp; 2], Vec<[f64; 2]>)>, DisagreementError> {
+) -> Result<Drawing, DisagreementError> {
     let sketch = map.sketch()?;
     let ends = sketch.links.iter().map(|&(from, to)| [from, to].map(|end| grown.olp(end.place, end.olp)));
     let driven = ends.zip(&map.links).filter(|(_, link)| !link.way.is_empty());
-    Ok(driven.map(|(ends, link)| (ends, link.way.clone())).collect())
+    Ok(drawing.with_ways(driven.map(|(ends, link)| (ends, link.way.clone()))))
 }
 
 /// Of the position of each place, if they are known.
