@@ -29,31 +29,29 @@ pub(crate) fn roomiest(rings: &[Vec<Point>], keep_off: &[(Point, f64)]) -> Optio
         (0..count as u32).map(move |index| from + (f64::from(index) + 0.5) * length / count)
     };
     let lattice = along(low.y, reach.y).flat_map(|y| along(low.x, reach.x).map(move |x| vector![x, y]));
+    let sides: Vec<[Point; 2]> = rings.iter().flat_map(|ring| sides(ring)).collect();
     let room = |at: &Point| {
-        let sides = sides(rings).map(|side| distance(*at, side));
+        let sides = sides.iter().map(|&side| distance(*at, side));
         let others = near.iter().map(|(other, radius)| (other - at).norm() - radius);
         sides.chain(others).fold(f64::INFINITY, f64::min)
     };
-    let inside = lattice.filter(|at| is_inside(*at, rings)).map(|at| (room(&at), at));
+    let inside = lattice.filter(|at| is_inside(*at, &sides)).map(|at| (room(&at), at));
     inside.max_by(|a, b| a.0.total_cmp(&b.0)).map(|(_, at)| at)
 }
 
-/// The sides of closed rings.
-fn sides(rings: &[Vec<Point>]) -> impl Iterator<Item = [Point; 2]> + '_ {
-    let ring = |ring: &'_ Vec<Point>| {
-        let next = ring.iter().copied().cycle().skip(1);
-        ring.iter().copied().zip(next).map(|(from, to)| [from, to]).collect::<Vec<_>>()
-    };
-    rings.iter().flat_map(ring)
+/// The sides of a closed ring.
+fn sides(ring: &[Point]) -> impl Iterator<Item = [Point; 2]> + '_ {
+    let next = ring.iter().copied().cycle().skip(1);
+    ring.iter().copied().zip(next).map(|(from, to)| [from, to])
 }
 
-/// Whether a ray to the right crosses the rings an odd number of times.
-fn is_inside(at: Point, rings: &[Vec<Point>]) -> bool {
-    let crosses = |[from, to]: &[Point; 2]| {
+/// Whether a ray to the right crosses the sides of rings an odd number of times.
+fn is_inside(at: Point, sides: &[[Point; 2]]) -> bool {
+    let crosses = |[from, to]: &&[Point; 2]| {
         (from.y > at.y) != (to.y > at.y)
             && at.x < from.x + (at.y - from.y) / (to.y - from.y) * (to.x - from.x)
     };
-    sides(rings).filter(crosses).count() % 2 == 1
+    sides.iter().filter(crosses).count() % 2 == 1
 }
 
 /// How far a point is from a side.
